@@ -1,0 +1,50 @@
+# How every target of the project is built: one place for warnings, sanitizers and linking.
+include_guard(GLOBAL)
+
+find_program(RELUME_CCACHE ccache)
+if(RELUME_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${RELUME_CCACHE})
+    set(CMAKE_C_COMPILER_LAUNCHER ${RELUME_CCACHE})
+endif()
+
+add_library(relume_build_flags INTERFACE)
+target_include_directories(relume_build_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(relume_build_flags INTERFACE
+    -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow
+    $<$<BOOL:${RELUME_WARNINGS_AS_ERRORS}>:-Werror>)
+# The same source must give the same bits on every machine: no fused multiply-add by whim.
+target_compile_options(relume_build_flags INTERFACE -ffp-contract=off)
+if(RELUME_SANITIZE)
+    target_compile_options(relume_build_flags INTERFACE
+        -fsanitize=${RELUME_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(relume_build_flags INTERFACE -fsanitize=${RELUME_SANITIZE})
+endif()
+find_program(RELUME_MOLD mold)
+if(RELUME_MOLD AND NOT RELUME_FUZZ)
+    target_link_options(relume_build_flags INTERFACE -fuse-ld=mold)
+endif()
+
+# relume_library(NAME SOURCES … LINKS …): static library relume_NAME, alias relume::NAME.
+function(relume_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+    add_library(relume_${name} STATIC ${ARG_SOURCES})
+    add_library(relume::${name} ALIAS relume_${name})
+    target_link_libraries(relume_${name} PUBLIC relume_build_flags ${ARG_LINKS})
+endfunction()
+
+# relume_program(FILE_NAME SOURCES … LINKS …): an executable.
+function(relume_program name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE relume_build_flags ${ARG_LINKS})
+endfunction()
+
+# relume_test(NAME SOURCES … LINKS … [LABELS …]): a GoogleTest program, registered with
+# ctest as one test per program (its cases print by themselves).
+function(relume_test name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+    relume_program(${name} SOURCES ${ARG_SOURCES}
+                   LINKS ${ARG_LINKS} GTest::gtest GTest::gtest_main)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+endfunction()
