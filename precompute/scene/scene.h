@@ -1,0 +1,43 @@
+// A scene as the bake sees it: triangles in world space, materials, textures, one camera.
+#pragma once
+
+#include "precompute/scene/camera.h"
+#include "precompute/scene/material.h"
+#include "precompute/scene/mesh.h"
+#include "precompute/scene/texture.h"
+
+#include <Imath/ImathBox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace relume::scene {
+
+// What a person must know who compares the picture with the file.
+struct ImportReport {
+    std::vector<std::string> unused;  // in the file, but no part of the bake: lights, skins, …
+    std::vector<std::string> repairs;  // changed on the way in: degenerate triangles dropped, …
+};
+
+// Read-only after import: all const members and free functions on it are thread-safe.
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;  // at least one, none empty
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    CameraPlacement camera;
+    ImportReport report;
+
+    [[nodiscard]] std::size_t triangle_count() const;
+    [[nodiscard]] std::size_t vertex_count() const;
+    [[nodiscard]] Imath::Box3f bounds() const;
+};
+
+// Checks and repairs what every scene must satisfy, whatever it came from: indices in range,
+// vertices finite, degenerate triangles dropped (and counted in the report), empty meshes
+// removed, normals unit or regenerated. Throws SceneError.
+void finish_scene(Scene& scene);
+
+}  // namespace relume::scene
