@@ -7,10 +7,10 @@
 // Texel index: face·n² + row·n + column.
 #pragma once
 
+#include <Imath/ImathVec.h>
+
 #include <cstddef>
 #include <cstdint>
-
-#include <Imath/ImathVec.h>
 
 namespace relume::basis {
 

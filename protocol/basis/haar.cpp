@@ -1,9 +1,9 @@
 #include "protocol/basis/haar.h"
 
+#include "protocol/basis/cubemap.h"
+
 #include <algorithm>
 #include <bit>
-
-#include "protocol/basis/cubemap.h"
 
 namespace relume::basis {
 
@@ -65,7 +65,8 @@ namespace {
 
 template <typename Transform>
 void for_each_face(std::uint32_t n, std::span<float> cubemap, Transform transform) {
-    alignas(64) thread_local float scratch[std::size_t{kMaxFaceResolution} * kMaxFaceResolution];
+    alignas(
+        64) thread_local float scratch[std::size_t{kMaxFaceResolution} * kMaxFaceResolution];
     const std::size_t face_size = std::size_t{n} * n;
     for (std::size_t face = 0; face < kFaceCount; ++face) {
         transform(n, cubemap.subspan(face * face_size, face_size), std::span<float>(scratch));
@@ -82,7 +83,9 @@ void haar_inverse_cubemap(std::uint32_t n, std::span<float> cubemap) {
     for_each_face(n, cubemap, haar_inverse);
 }
 
-std::uint32_t band_count(std::uint32_t n) { return static_cast<std::uint32_t>(std::countr_zero(n)); }
+std::uint32_t band_count(std::uint32_t n) {
+    return static_cast<std::uint32_t>(std::countr_zero(n));
+}
 
 std::uint32_t band_from_coefficient(std::uint32_t n, std::size_t coefficient) {
     const Texel place = texel_from_index(n, coefficient);

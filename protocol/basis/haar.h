@@ -1,9 +1,10 @@
-// The 2-D non-standard Haar basis, orthonormal, one square face at a time [Ng03 §3, Stollnitz95].
+// The 2-D non-standard Haar basis, orthonormal, one square face at a time [Ng03 §3,
+// Stollnitz95].
 //
 // Coefficients lie where Mallat's pyramid puts them, row-major in the n×n face: the scaling
 // coefficient at (0,0); the wavelets of level ℓ (ℓ = 0 is the coarsest, 2^ℓ×2^ℓ positions) in
-// the three squares of side 2^ℓ whose corners are (row 0, column 2^ℓ) differences along columns,
-// (2^ℓ, 0) differences along rows, (2^ℓ, 2^ℓ) both. One step maps a 2×2 cell
+// the three squares of side 2^ℓ whose corners are (row 0, column 2^ℓ) differences along
+// columns, (2^ℓ, 0) differences along rows, (2^ℓ, 2^ℓ) both. One step maps a 2×2 cell
 //     p q          (p+q+r+s)/2   (p−q+r−s)/2
 //     r s    to    (p+q−r−s)/2   (p−q−r+s)/2
 // and recurses on the averages. The transform is its own transpose's inverse, so

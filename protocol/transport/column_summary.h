@@ -1,0 +1,31 @@
+// What is summed over a column of the stored transport: its energy, its bytes and its sketch.
+#pragma once
+
+#include "protocol/transport/manifest.h"
+#include "protocol/transport/shard_reader.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::transport {
+
+struct ColumnSummary {
+    std::vector<float> energies;              // [N][3]
+    std::vector<std::uint32_t> column_bytes;  // [N]
+    std::vector<float> sketch_scales;         // [N][3]
+    std::vector<std::int16_t> sketch_values;  // [N][3][R]
+};
+
+// Steps [N][K], tint [blocks][3][256]. Parallel over columns; the same result on any number of
+// threads. Throws TransportError when a column passes 4 GiB.
+//
+// The sketch is a count sketch [Charikar02]: every pixel adds to one row of R with one sign, so
+// it costs one addition per non-zero, R times fewer than dense random signs, and the estimate
+// of ‖T ΔL‖² it gives is unbiased with relative variance at most 2/R, as theirs.
+[[nodiscard]] ColumnSummary summarise_columns(const Manifest& manifest,
+                                              std::span<const ShardReader> shards,
+                                              std::span<const float> steps,
+                                              std::span<const float> tint);
+
+}  // namespace relume::transport

@@ -1,0 +1,66 @@
+// Constants of the transport directory; the normative text is protocol/README.md §2.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace relume::transport {
+
+inline constexpr std::uint32_t kFormatVersion = 1;
+
+inline constexpr std::uint32_t kTileSide = 16;
+inline constexpr std::uint32_t kBlockSize = kTileSide * kTileSide;  // receivers (slots)
+inline constexpr std::uint32_t kMaxBlocksPerShard = 64;
+inline constexpr std::uint32_t kMaxImageSide = 16384;
+inline constexpr std::uint32_t kMaxChannels = 3;
+inline constexpr std::uint32_t kColours = 3;
+inline constexpr std::uint32_t kMinSketchRows = 16;
+inline constexpr std::uint32_t kMaxSketchRows = 1024;
+
+inline constexpr std::array<std::uint8_t, 8> kShardMagic{'R', 'E', 'L', 'U',
+                                                         'M', 'E', 'S', 'H'};
+inline constexpr std::size_t kShardHeaderBytes = 128;
+inline constexpr std::size_t kShardAlignment = 64;
+
+// How a cell (256 receivers of one column) is stored.
+enum class CellTag : std::uint8_t {
+    empty = 0,
+    dense8 = 1,
+    bitmap8 = 2,
+    sparse8 = 3,
+    dense16 = 4,
+    bitmap16 = 5,
+    dense32f = 6,
+};
+inline constexpr std::size_t kCellTagCount = 7;
+inline constexpr std::array<const char*, kCellTagCount> kCellTagNames{
+    "empty", "dense8", "bitmap8", "sparse8", "dense16", "bitmap16", "dense32f"};
+inline constexpr std::size_t kBitmapBytes = kBlockSize / 8;
+
+// Where a pixel lives.
+struct Receiver {
+    std::uint32_t block = 0;
+    std::uint32_t slot = 0;
+};
+
+// Tiles of an image, row by row from the top left.
+struct TileGrid {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+
+    [[nodiscard]] constexpr std::uint32_t tiles_x() const {
+        return (width + kTileSide - 1) / kTileSide;
+    }
+    [[nodiscard]] constexpr std::uint32_t tiles_y() const {
+        return (height + kTileSide - 1) / kTileSide;
+    }
+    [[nodiscard]] constexpr std::uint32_t block_count() const { return tiles_x() * tiles_y(); }
+    [[nodiscard]] constexpr Receiver receiver_from_pixel(std::uint32_t x,
+                                                         std::uint32_t y) const {
+        return {.block = (y / kTileSide) * tiles_x() + x / kTileSide,
+                .slot = (y % kTileSide) * kTileSide + x % kTileSide};
+    }
+};
+
+}  // namespace relume::transport

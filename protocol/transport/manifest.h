@@ -1,0 +1,82 @@
+// manifest.json: what a transport directory is, and the length and checksum of all it holds.
+#pragma once
+
+#include "protocol/transport/format.h"
+
+#include <Imath/ImathVec.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace relume::transport {
+
+struct FileRecord {
+    std::string file;
+    std::uint64_t bytes = 0;
+    std::uint64_t checksum = 0;
+};
+
+struct ShardRecord {
+    std::string file;
+    std::uint64_t bytes = 0;
+    std::uint64_t header_checksum = 0;
+    std::uint32_t first_block = 0;
+    std::uint32_t block_count = 0;
+};
+
+// Pinhole camera; right, up and forward are orthonormal.
+struct CameraRecord {
+    Imath::V3f eye{0, 0, 0};
+    Imath::V3f right{1, 0, 0};
+    Imath::V3f up{0, 1, 0};
+    Imath::V3f forward{0, 0, -1};
+    float tan_half_width = 1;
+    float tan_half_height = 1;
+
+    // Unit direction through the image point (x, y) in pixels, the first pixel's centre being
+    // (0.5, 0.5), of an image of width×height.
+    [[nodiscard]] Imath::V3f direction_from_pixel(float x,
+                                                  float y,
+                                                  const TileGrid& image) const;
+};
+
+// Colours from stored channels: colour c = Σ_k matrix[c][k]·channel k. Rows beyond `channels`
+// are unused and zero.
+struct ColourModel {
+    std::uint32_t channels = 1;
+    std::array<std::array<float, kMaxChannels>, kColours> matrix{};
+};
+
+struct Manifest {
+    std::string generator;
+    std::uint64_t fingerprint = 0;
+    TileGrid image;
+    std::uint32_t face_resolution = 0;
+    ColourModel colour;
+    std::uint32_t sketch_rows = 0;
+    FileRecord columns;
+    FileRecord receivers;
+    FileRecord sketch;
+    std::vector<ShardRecord> shards;
+    CameraRecord camera;
+    nlohmann::json bake = nlohmann::json::object();
+    nlohmann::json measured = nlohmann::json::object();
+
+    // Coefficients, N = 6·n².
+    [[nodiscard]] std::uint32_t column_count() const {
+        return 6 * face_resolution * face_resolution;
+    }
+    [[nodiscard]] std::uint32_t block_count() const { return image.block_count(); }
+};
+
+// The file's text, checksum line first. The same manifest gives the same bytes.
+[[nodiscard]] std::string text_from_manifest(const Manifest& manifest);
+// Throws TransportError naming `file` and the key, what was found and what was expected.
+[[nodiscard]] Manifest manifest_from_text(std::string_view text, std::string_view file);
+
+}  // namespace relume::transport

@@ -1,0 +1,67 @@
+// Writes a transport directory: shards as they come, then tables and manifest. A killed bake
+// resumes at the first missing shard.
+#pragma once
+
+#include "protocol/transport/manifest.h"
+#include "protocol/transport/shard_reader.h"
+#include "protocol/transport/shard_writer.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace relume::transport {
+
+// Which blocks make shard number i: consecutive and equal in count but for the last.
+struct ShardPlan {
+    std::uint32_t block_count = 0;
+    std::uint32_t blocks_per_shard = 0;
+
+    [[nodiscard]] std::uint32_t shard_count() const {
+        return (block_count + blocks_per_shard - 1) / blocks_per_shard;
+    }
+    [[nodiscard]] std::uint32_t first_block(std::uint32_t shard) const {
+        return shard * blocks_per_shard;
+    }
+    [[nodiscard]] std::uint32_t blocks_in(std::uint32_t shard) const {
+        const std::uint32_t left = block_count - first_block(shard);
+        return left < blocks_per_shard ? left : blocks_per_shard;
+    }
+};
+
+// Per-receiver and per-column tables the bake knows; the rest is computed from the shards.
+struct BakedTables {
+    std::vector<float> steps;     // [N][K]
+    std::vector<float> coverage;  // [blocks][256]
+    std::vector<float> tint;      // [blocks][3][256]
+};
+
+class TransportWriter {
+  public:
+    // `manifest` gives everything but files, shards and `measured`. Creates the directory.
+    // Removes a manifest left by another bake, so that a half-written directory never passes
+    // for a whole one.
+    TransportWriter(std::filesystem::path directory, Manifest manifest, ShardPlan plan);
+
+    // Whether the shard is there already, whole, and of this bake (same fingerprint and plan).
+    [[nodiscard]] bool has_shard(std::uint32_t shard) const;
+    // Thread-safe for different shards.
+    void write_shard(std::uint32_t shard, const std::vector<EncodedBlock>& blocks) const;
+
+    // Reads all shards back, sums column energies, bytes and the sketch from what is *stored*,
+    // writes the tables and, last of all, the manifest with `measured` and cell statistics
+    // added to it. Throws TransportError when a shard is missing.
+    void finish(const BakedTables& tables, const nlohmann::json& measured);
+
+    [[nodiscard]] const ShardPlan& plan() const { return plan_; }
+
+  private:
+    [[nodiscard]] std::filesystem::path shard_path(std::uint32_t shard) const;
+
+    std::filesystem::path directory_;
+    Manifest manifest_;
+    ShardPlan plan_;
+};
+
+}  // namespace relume::transport

@@ -1,0 +1,85 @@
+// The text frames of a session, in both directions.
+#pragma once
+
+#include "protocol/wire/errors.h"
+#include "protocol/wire/limits.h"
+#include "protocol/wire/session_state.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace relume::wire {
+
+inline constexpr std::uint32_t kProtocolVersion = 1;
+// Ids, revisions and sequence numbers stay within what a JSON number holds in every language.
+inline constexpr std::uint64_t kMaxInteger = (std::uint64_t{1} << 53) - 1;
+
+// Client to server.
+struct Edit {
+    std::uint64_t id = 0;
+    nlohmann::json patch;
+};
+struct Ack {
+    std::uint64_t sequence = 0;
+};
+using ClientMessage = std::variant<Edit, Ack>;
+
+// Server to client.
+struct SceneSummary {
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t face_resolution = 0;
+
+    friend bool operator==(const SceneSummary&, const SceneSummary&) = default;
+};
+struct Snapshot {
+    std::string room;
+    SceneSummary scene;
+    std::uint64_t revision = 0;
+    SessionState state;
+    std::uint32_t viewers = 0;
+    Limits limits;
+};
+struct Change {
+    std::uint64_t revision = 0;
+    nlohmann::json patch;
+    std::optional<std::uint64_t> edit_id;  // only to the edit's author
+};
+struct ErrorMessage {
+    ErrorCode code = ErrorCode::internal;
+    std::string message;
+    std::string path;
+    std::string found;
+    std::string expected;
+    std::optional<std::uint64_t> edit_id;
+};
+struct Viewers {
+    std::uint32_t count = 0;
+};
+using ServerMessage = std::variant<Snapshot, Change, ErrorMessage, Viewers>;
+
+// The server's side. Throws WireError; when the edit's id could be read, the error carries it.
+// The patch is only required to be an object: apply_patch checks what is in it.
+[[nodiscard]] ClientMessage parse_client_message(std::string_view text, const Limits& limits);
+[[nodiscard]] std::string text_from_message(const Snapshot& message);
+[[nodiscard]] std::string text_from_message(const Change& message);
+[[nodiscard]] std::string text_from_message(const ErrorMessage& message);
+[[nodiscard]] std::string text_from_message(const Viewers& message);
+[[nodiscard]] ErrorMessage message_from_error(const WireError& error);
+// The body of a failed HTTP request: {"error":{"code","message","found","expected"}}.
+[[nodiscard]] std::string http_body_from_error(const WireError& error);
+
+// The client's side. Fields this version does not know are ignored, so that a server may say
+// more; a type it does not know is WireError{unknown_type}, which a client skips. A snapshot
+// of another protocol version is WireError{unsupported}.
+[[nodiscard]] ServerMessage parse_server_message(std::string_view text);
+[[nodiscard]] std::string text_from_message(const Edit& message);
+[[nodiscard]] std::string text_from_message(const Ack& message);
+
+}  // namespace relume::wire

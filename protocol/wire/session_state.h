@@ -1,0 +1,116 @@
+// The state of a room: what its image shows. It changes only by patches (session_patch.h).
+//
+// Numbers are kept as doubles, so that what a client sets is what every client reads back.
+// Plain values without locks: a state belongs to one thread at a time.
+#pragma once
+
+#include <Imath/ImathQuat.h>
+#include <Imath/ImathVec.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace relume::wire {
+
+enum class Method : std::uint8_t { nwa, bi, pbi };
+enum class Priority : std::uint8_t { area, none, transport };
+enum class BackgroundMode : std::uint8_t { environment, colour, transparent };
+enum class Tone : std::uint8_t { filmic, linear };
+
+[[nodiscard]] std::string_view name_from(Method method);
+[[nodiscard]] std::string_view name_from(Priority priority);
+[[nodiscard]] std::string_view name_from(BackgroundMode mode);
+[[nodiscard]] std::string_view name_from(Tone tone);
+[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
+[[nodiscard]] std::optional<Priority> priority_from_name(std::string_view name);
+[[nodiscard]] std::optional<BackgroundMode> background_mode_from_name(std::string_view name);
+[[nodiscard]] std::optional<Tone> tone_from_name(std::string_view name);
+
+struct Environment {
+    std::string name = "sky";
+    double gain = 1;
+    Imath::V3d tint{1, 1, 1};
+
+    friend bool operator==(const Environment&, const Environment&) = default;
+};
+
+// Radiance (1 − amount)·environment + amount·(environment `name`, under the same gain and
+// tint).
+struct Blend {
+    std::optional<std::string> name;
+    double amount = 0;
+
+    friend bool operator==(const Blend&, const Blend&) = default;
+};
+
+// A round light at infinity; its radiance is radiance · gain · tint over the whole disc.
+struct AreaLight {
+    Imath::V3d direction{0, 1, 0};  // unit, towards the light, in the world
+    double angular_radius_degrees = 1;
+    Imath::V3d radiance{0, 0, 0};
+    double gain = 1;
+    Imath::V3d tint{1, 1, 1};
+
+    friend bool operator==(const AreaLight&, const AreaLight&) = default;
+};
+
+struct Background {
+    BackgroundMode mode = BackgroundMode::environment;
+    Imath::V3d colour{0.05, 0.05, 0.05};
+
+    friend bool operator==(const Background&, const Background&) = default;
+};
+
+struct Strategy {
+    Method method = Method::pbi;
+    Priority priority = Priority::transport;
+
+    friend bool operator==(const Strategy&, const Strategy&) = default;
+};
+
+// Per image: exactly one of `milliseconds` and `coefficients` is set.
+struct Budget {
+    std::optional<double> milliseconds = 8;
+    std::optional<std::uint32_t> coefficients;
+    double target_error = 0;  // relative L2; 0 asks for exact
+
+    friend bool operator==(const Budget&, const Budget&) = default;
+};
+
+struct Display {
+    double exposure_stops = 0;
+    Tone tone = Tone::filmic;
+
+    friend bool operator==(const Display&, const Display&) = default;
+};
+
+struct SessionState {
+    Environment environment;
+    Blend blend;
+    Imath::Quatd rotation;  // unit; world direction = rotation · source direction
+    std::map<std::string, AreaLight> lights;
+    Background background;
+    Strategy strategy;
+    Budget budget;
+    Display display;
+
+    friend bool operator==(const SessionState&, const SessionState&) = default;
+};
+
+// R = R_y(yaw) · R_x(pitch) · R_z(roll), as a unit quaternion.
+[[nodiscard]] Imath::Quatd quaternion_from_yaw_pitch_roll_degrees(double yaw_degrees,
+                                                                  double pitch_degrees,
+                                                                  double roll_degrees);
+
+// The object of protocol/README.md §3.1. What is not set (blend.name, one of the budgets) is
+// left out, so that the object is what merging all patches so far gives.
+[[nodiscard]] nlohmann::json to_json(const SessionState& state);
+[[nodiscard]] nlohmann::json to_json(const AreaLight& light);
+// Throws WireError as apply_patch does.
+[[nodiscard]] SessionState session_state_from_json(const nlohmann::json& object);
+
+}  // namespace relume::wire
