@@ -39,12 +39,21 @@ function(relume_program name)
     target_link_libraries(${name} PRIVATE relume_build_flags ${ARG_LINKS})
 endfunction()
 
+# What the sanitizer presets build: every test program with label unit.
+add_custom_target(unit_tests)
+
 # relume_test(NAME SOURCES … LINKS … [LABELS …]): a GoogleTest program, registered with
-# ctest as one test per program (its cases print by themselves).
+# ctest as one test per program (its cases print by themselves). A folder may give all its
+# tests a label by setting RELUME_TEST_LABELS.
 function(relume_test name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS" ${ARGN})
     relume_program(${name} SOURCES ${ARG_SOURCES}
                    LINKS ${ARG_LINKS} GTest::gtest GTest::gtest_main)
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+    set(labels ${RELUME_TEST_LABELS} ${ARG_LABELS})
+    list(REMOVE_DUPLICATES labels)
+    set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 600)
+    if("unit" IN_LIST labels)
+        add_dependencies(unit_tests ${name})
+    endif()
 endfunction()
