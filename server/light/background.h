@@ -1,0 +1,41 @@
+// The rig seen directly, at the full resolution of the source maps: never the lighting's
+// texels.
+#pragma once
+
+#include "server/light/light_rig.h"
+
+#include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
+
+#include <memory>
+#include <vector>
+
+namespace relume::light {
+
+// A rig made ready for many lookups. Keeps the rig's environments alive. Any number of threads
+// may read it.
+class Background {
+  public:
+    explicit Background(const LightRig& rig);
+
+    // Mean radiance over a pixel of `footprint_sr` steradians around a world direction (any
+    // non-zero length). Discs of area lights have an antialiased edge one pixel wide and keep
+    // their energy when they are smaller than a pixel.
+    [[nodiscard]] Imath::V3f radiance(const Imath::V3f& world_direction,
+                                      float footprint_sr) const;
+
+  private:
+    std::shared_ptr<const PrefilteredEnvironment> environment_;
+    std::shared_ptr<const PrefilteredEnvironment> blend_;
+    Imath::V3f environment_scale_;
+    Imath::V3f blend_scale_;
+    Imath::M33f source_from_world_;
+    std::vector<AreaLight> lights_;
+};
+
+// One lookup.
+[[nodiscard]] Imath::V3f background_radiance(const LightRig& rig,
+                                             const Imath::V3f& world_direction,
+                                             float footprint_sr);
+
+}  // namespace relume::light

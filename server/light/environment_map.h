@@ -1,0 +1,71 @@
+// An environment: radiance from every direction, at the full resolution of its source.
+#pragma once
+
+#include "server/light/projection.h"
+
+#include <Imath/ImathVec.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::light {
+
+inline constexpr std::uint32_t kMaxMapSide = 16384;
+inline constexpr std::size_t kMaxMapTexels = std::size_t{16384} * 8192;
+// Brighter texels would overflow the sums of the relighting that follows.
+inline constexpr float kMaxTexelRadiance = 1e10F;
+
+// The image as its projection lays it out: linear, Rec. 709, RGB interleaved, row-major from
+// the top left, 3·width·height values.
+struct MapImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<float> rgb;
+};
+
+// Immutable once made; any number of threads may read it.
+class EnvironmentMap {
+  public:
+    // How the texels are kept: crosses and strips become the six faces of protocol/README.md §1
+    // stacked from top to bottom, so that nothing below needs to know where a face lay.
+    enum class Layout : std::uint8_t { lat_long, angular, cube_faces };
+
+    // One level of the pyramid. Level 0 holds the source's texels, each next one has half the
+    // side and the same energy. `width` and `height` count one face where the layout has faces.
+    struct Level {
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+        std::vector<float> rgb;
+    };
+
+    // Throws EnvironmentError when the shape does not fit the projection, the bounds above are
+    // passed, or a value is negative, not finite or above kMaxTexelRadiance.
+    EnvironmentMap(MapImage image, Projection projection);
+
+    [[nodiscard]] std::uint32_t width() const { return width_; }
+    [[nodiscard]] std::uint32_t height() const { return height_; }
+    [[nodiscard]] Projection projection() const { return projection_; }
+    [[nodiscard]] Layout layout() const { return layout_; }
+    [[nodiscard]] std::span<const Level> levels() const { return levels_; }
+
+    // Mean radiance around a source direction (any non-zero length), for what is seen directly.
+    // `footprint_sr` is the solid angle of the pixel that asks; 0 gives the bilinear lookup at
+    // full resolution.
+    [[nodiscard]] Imath::V3f radiance(const Imath::V3f& source_direction,
+                                      float footprint_sr = 0) const;
+
+    // ∫ radiance dω over the sphere, texel by texel (watts per m² and π of a point, if you
+    // like: 4π for a constant map of 1). For exposure and for tests of energy.
+    [[nodiscard]] Imath::V3d total_energy() const;
+
+  private:
+    std::uint32_t width_;
+    std::uint32_t height_;
+    Projection projection_;
+    Layout layout_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace relume::light

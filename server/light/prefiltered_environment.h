@@ -1,0 +1,40 @@
+// A source map resampled once so that turning it is cheap and keeps the energy of its suns.
+#pragma once
+
+#include "server/light/environment_map.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace relume::light {
+
+// For lighting cubemaps of one resolution n. Holds a finer cubemap (side m of a face, see the
+// README for how m and the low-pass come about), RGB and one unused value per texel, every face
+// with a border of one texel taken from its neighbours so that bilinear lookups run across
+// edges. Immutable once made; any number of threads may read it.
+class PrefilteredEnvironment {
+  public:
+    // Takes tens to hundreds of milliseconds, on all cores TBB has.
+    // Throws std::invalid_argument unless basis::is_face_resolution(face_resolution).
+    PrefilteredEnvironment(std::shared_ptr<const EnvironmentMap> source,
+                           std::uint32_t face_resolution);
+
+    [[nodiscard]] const EnvironmentMap& source() const { return *source_; }
+    [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
+
+    [[nodiscard]] std::uint32_t inner_resolution() const { return inner_resolution_; }
+    // Row-major, 6·(m+2)² texels of 4 floats; texel (row, column) of a face lies at
+    // (face·(m+2) + row + 1)·(m+2) + column + 1.
+    [[nodiscard]] std::span<const float> padded_texels() const { return texels_; }
+
+  private:
+    std::shared_ptr<const EnvironmentMap> source_;
+    std::uint32_t face_resolution_;
+    std::uint32_t inner_resolution_;
+    std::vector<float> texels_;
+};
+
+}  // namespace relume::light

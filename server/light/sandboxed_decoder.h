@@ -1,0 +1,38 @@
+// Image files from strangers, decoded in a child process that can do nothing but compute.
+//
+// Decoders of EXR have had memory errors and will have more. The child (relume-decode) gets the
+// bytes on its standard input, drops every right by rlimits and a seccomp allow-list before it
+// looks at them, and answers with plain floats, whose every length this side checks again.
+#pragma once
+
+#include "server/light/environment_import.h"
+#include "server/light/environment_map.h"
+#include "server/light/projection.h"
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+namespace relume::light {
+
+struct DecodeLimits {
+    std::size_t max_file_bytes = std::size_t{64} << 20;
+    // A map keeps 16 bytes a texel in the server: who takes many uploads will want this lower.
+    std::size_t max_texels = kMaxMapTexels;
+    std::size_t address_space_bytes = std::size_t{6} << 30;
+    std::chrono::milliseconds timeout{30'000};  // wall clock; CPU time is bounded by the same
+    // Empty: `relume-decode` beside the running program.
+    std::filesystem::path program;
+};
+
+// As import_environment, in a child. May be called from any thread, and from several at once;
+// the calling thread waits. Throws EnvironmentError when the file is refused, and also when the
+// child cannot be started, crashes, is stopped for a forbidden system call, runs out of time or
+// answers nonsense; the message says which.
+[[nodiscard]] ImportedEnvironment decode_in_child(std::span<const std::byte> file_bytes,
+                                                  std::optional<Projection> projection = {},
+                                                  const DecodeLimits& limits = {});
+
+}  // namespace relume::light

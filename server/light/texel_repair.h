@@ -1,0 +1,18 @@
+// Real HDR files hold negative, NaN and infinite texels; lighting must not.
+#pragma once
+
+#include "server/light/environment_map.h"
+
+#include <string>
+#include <vector>
+
+namespace relume::light {
+
+// In place: +∞ (what a half float makes of a sun) becomes 65504, or the brightest finite value
+// of the image if that is more; NaN and −∞ become the mean of the finite texels around them,
+// from the nearest ring that has one; negatives become 0; what is above kMaxTexelRadiance
+// becomes that. Returns one sentence per kind of repair with its count. Throws EnvironmentError
+// if more than one texel in a hundred (and more than one) is not finite.
+std::vector<std::string> repair_texels(MapImage& image);
+
+}  // namespace relume::light
