@@ -16,8 +16,6 @@
 namespace relume::wire {
 
 inline constexpr std::uint32_t kProtocolVersion = 1;
-// Ids, revisions and sequence numbers stay within what a JSON number holds in every language.
-inline constexpr std::uint64_t kMaxInteger = (std::uint64_t{1} << 53) - 1;
 
 // Client to server.
 struct Edit {

@@ -25,10 +25,6 @@ enum class Tone : std::uint8_t { filmic, linear };
 [[nodiscard]] std::string_view name_from(Priority priority);
 [[nodiscard]] std::string_view name_from(BackgroundMode mode);
 [[nodiscard]] std::string_view name_from(Tone tone);
-[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
-[[nodiscard]] std::optional<Priority> priority_from_name(std::string_view name);
-[[nodiscard]] std::optional<BackgroundMode> background_mode_from_name(std::string_view name);
-[[nodiscard]] std::optional<Tone> tone_from_name(std::string_view name);
 
 struct Environment {
     std::string name = "sky";

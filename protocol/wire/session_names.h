@@ -1,0 +1,32 @@
+// The words of the session state's enumerations.
+#pragma once
+
+#include "protocol/wire/name_table.h"
+#include "protocol/wire/session_state.h"
+
+namespace relume::wire {
+
+inline constexpr NameTable<Method, 3> kMethodNames({{
+    {Method::nwa, "nwa"},
+    {Method::bi, "bi"},
+    {Method::pbi, "pbi"},
+}});
+
+inline constexpr NameTable<Priority, 3> kPriorityNames({{
+    {Priority::area, "area"},
+    {Priority::none, "none"},
+    {Priority::transport, "transport"},
+}});
+
+inline constexpr NameTable<BackgroundMode, 3> kBackgroundModeNames({{
+    {BackgroundMode::environment, "environment"},
+    {BackgroundMode::colour, "colour"},
+    {BackgroundMode::transparent, "transparent"},
+}});
+
+inline constexpr NameTable<Tone, 2> kToneNames({{
+    {Tone::filmic, "filmic"},
+    {Tone::linear, "linear"},
+}});
+
+}  // namespace relume::wire
