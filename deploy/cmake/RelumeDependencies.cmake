@@ -11,6 +11,11 @@ find_package(CLI11 REQUIRED)
 find_package(Imath REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(OpenImageIO REQUIRED)
+# Debian's package names OpenCV's folder, which it does not depend on and we do not need.
+get_target_property(RELUME_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER RELUME_OIIO_INCLUDES EXCLUDE REGEX "/opencv4$")
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${RELUME_OIIO_INCLUDES}")
 find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)

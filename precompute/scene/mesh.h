@@ -17,7 +17,6 @@ struct Mesh {
     std::vector<Imath::V3f> positions;  // finite
     std::vector<Imath::V3f> normals;    // per vertex, unit; empty: flat shading
     std::vector<Imath::V2f> uvs;        // per vertex, v upwards; empty: (0, 0)
-    std::vector<Imath::V4f> tangents;   // per vertex, w = ±1 the bitangent's sign; empty: none
     std::vector<Imath::V3f> colours;    // per vertex, linear; empty: white
     std::vector<Triangle> triangles;    // indices < positions.size(), none degenerate
     std::uint32_t material = 0;         // index into Scene::materials

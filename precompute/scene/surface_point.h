@@ -16,7 +16,7 @@ struct Frame {
     Imath::V3f bitangent{0, 1, 0};
     Imath::V3f normal{0, 0, 1};
 
-    // [Duff17], continuous except at normal.z = 0 crossing sign.
+    // Any tangents will do: the models are isotropic [Duff17].
     [[nodiscard]] static Frame from_normal(const Imath::V3f& unit_normal);
     [[nodiscard]] Imath::V3f to_local(const Imath::V3f& world) const;
     [[nodiscard]] Imath::V3f to_world(const Imath::V3f& local) const;

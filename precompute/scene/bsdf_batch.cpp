@@ -1,0 +1,127 @@
+// Bsdf::evaluate_times_cosine: plain loops over planes, compiled so that they vectorise (see
+// CMakeLists.txt). Chunks keep the temporaries in L1.
+#include "precompute/scene/bsdf.h"
+#include "precompute/scene/bsdf_lobes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace relume::scene {
+namespace {
+
+constexpr std::size_t kChunk = 64;
+
+using Chunk = std::array<float, kChunk>;
+
+// What a chunk of directions reflects, in three shares that colours are multiplied onto.
+struct Shares {
+    Chunk diffuse;
+    Chunk specular;
+    Chunk white;
+};
+
+struct ChunkOfDirections {
+    const float* x;
+    const float* y;
+    const float* z;
+    std::size_t count;
+};
+
+void lambert_shares(const ChunkOfDirections& wi, Shares& shares) {
+    for (std::size_t i = 0; i < wi.count; ++i)
+        shares.diffuse[i] = lobes::kInversePi * std::max(wi.z[i], 0.0F);
+}
+
+void phong_shares(float exponent,
+                  const Imath::V3f& wo,
+                  const ChunkOfDirections& wi,
+                  Shares& shares) {
+    lambert_shares(wi, shares);
+    Chunk lobe;
+    for (std::size_t i = 0; i < wi.count; ++i) {
+        const float cosine = wo.z * wi.z[i] - wo.x * wi.x[i] - wo.y * wi.y[i];
+        lobe[i] = std::min(std::max(cosine, 0.0F), 1.0F);
+    }
+    lobes::power(lobe.data(), wi.count,
+                 static_cast<std::uint32_t>(exponent * lobes::kExponentSteps));
+    const float norm = (exponent + 2.0F) * 0.5F * lobes::kInversePi;
+    for (std::size_t i = 0; i < wi.count; ++i)
+        shares.specular[i] = norm * lobe[i] * std::max(wi.z[i], 0.0F);
+}
+
+void ggx_shares(float alpha,
+                const Imath::V3f& wo,
+                const ChunkOfDirections& wi,
+                Shares& shares) {
+    const float alpha2 = alpha * alpha;
+    const float root_o = lobes::smith_root(alpha2, wo.z);
+    const float layer = lobes::kCoatedDiffuse * lobes::coat_transmission(wo.z);
+    for (std::size_t i = 0; i < wi.count; ++i) {
+        const float cos_i = std::max(wi.z[i], 0.0F);
+        const float x = wi.x[i] + wo.x;
+        const float y = wi.y[i] + wo.y;
+        const float z = cos_i + wo.z;
+        const float length2 = std::max(x * x + y * y + z * z, 1e-12F);
+        const float inverse2 = 1.0F / length2;
+        const float cos_h = 0.5F * std::sqrt(length2);  // wo·h
+        const float d = lobes::ggx_distribution(alpha2, (x * x + y * y) * inverse2,
+                                                z * std::sqrt(inverse2));
+        const float root_i = lobes::smith_root(alpha2, cos_i);
+        const float v = lobes::smith_visibility(cos_i, root_i, wo.z, root_o);
+        const float lobe = d * v * cos_i;
+        const float fresnel = lobes::schlick_weight(std::min(cos_h, 1.0F));
+        shares.diffuse[i] = layer * lobes::coat_transmission(cos_i) * cos_i;
+        shares.specular[i] = lobe * (1.0F - fresnel);
+        shares.white[i] = lobe * fresnel;
+    }
+}
+
+}  // namespace
+
+void Bsdf::evaluate_times_cosine(const Imath::V3f& wo,
+                                 const Directions& wi,
+                                 const RgbPlanes& out) const {
+    const std::size_t count = wi.x.size();
+    const std::array<float*, 3> planes{out.r.data(), out.g.data(), out.b.data()};
+    if (wo.z <= 0) {
+        for (float* plane : planes)
+            std::fill_n(plane, count, 0.0F);
+        return;
+    }
+    Shares shares;
+    for (std::size_t start = 0; start < count; start += kChunk) {
+        const ChunkOfDirections chunk{wi.x.data() + start, wi.y.data() + start,
+                                      wi.z.data() + start, std::min(kChunk, count - start)};
+        switch (model_) {
+            case BsdfModel::lambert:
+                lambert_shares(chunk, shares);
+                break;
+            case BsdfModel::phong:
+                phong_shares(exponent_, wo, chunk, shares);
+                break;
+            case BsdfModel::ggx:
+                ggx_shares(alpha_, wo, chunk, shares);
+                break;
+        }
+        for (int c = 0; c < 3; ++c) {
+            float* plane = planes[static_cast<std::size_t>(c)] + start;
+            const float diffuse = diffuse_[c];
+            const float specular = specular_[c];
+            if (model_ == BsdfModel::lambert) {
+                for (std::size_t i = 0; i < chunk.count; ++i)
+                    plane[i] = diffuse * shares.diffuse[i];
+            } else if (model_ == BsdfModel::phong) {
+                for (std::size_t i = 0; i < chunk.count; ++i)
+                    plane[i] = diffuse * shares.diffuse[i] + specular * shares.specular[i];
+            } else {
+                for (std::size_t i = 0; i < chunk.count; ++i)
+                    plane[i] = diffuse * shares.diffuse[i] + specular * shares.specular[i] +
+                               shares.white[i];
+            }
+        }
+    }
+}
+
+}  // namespace relume::scene

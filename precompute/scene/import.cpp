@@ -1,0 +1,200 @@
+#include "precompute/scene/import.h"
+
+#include "precompute/scene/error.h"
+#include "precompute/scene/import_folder.h"
+#include "precompute/scene/import_materials.h"
+#include "precompute/scene/import_nodes.h"
+#include "precompute/scene/srgb.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <new>
+#include <string>
+#include <system_error>
+
+namespace relume::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where a file gives no normals, edges sharper than this stay sharp.
+constexpr float kCreaseDegrees = 60;
+
+FileFormat format_of(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".gltf" || extension == ".glb")
+        return FileFormat::gltf;
+    if (extension == ".obj")
+        return FileFormat::obj;
+    if (extension == ".ply")
+        return FileFormat::ply;
+    throw SceneError(SceneFault::unsupported_format,
+                     fmt::format("scene '{}': format '{}'; expected .gltf, .glb, .obj or .ply",
+                                 path.string(), extension));
+}
+
+void check_file(const fs::path& path, std::uint64_t max_bytes) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+        throw SceneError(SceneFault::missing_file,
+                         fmt::format("scene '{}': no such file", path.string()));
+    const auto bytes = fs::file_size(path, error);
+    if (error || bytes > max_bytes)
+        throw SceneError(SceneFault::too_large,
+                         fmt::format("scene '{}' has {} bytes; expected at most {}",
+                                     path.string(), bytes, max_bytes));
+}
+
+// Before assimp's own steps walk over the arrays by these indices.
+void check_mesh(const std::string& file, const aiMesh& mesh) {
+    const auto where = [&] {
+        return fmt::format("scene '{}', mesh '{}'", file, mesh.mName.C_Str());
+    };
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& p = mesh.mVertices[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw SceneError(
+                SceneFault::non_finite_vertex,
+                fmt::format("{}: vertex {} is ({}, {}, {}); expected finite numbers", where(),
+                            i, p.x, p.y, p.z));
+    }
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            if (face.mIndices[k] >= mesh.mNumVertices)
+                throw SceneError(
+                    SceneFault::index_out_of_range,
+                    fmt::format("{}: face {} refers to vertex {}; expected below {}", where(),
+                                i, face.mIndices[k], mesh.mNumVertices));
+        }
+    }
+}
+
+void report_unused(const aiScene& source, const FolderIo& io, ImportReport& report) {
+    for (unsigned i = 0; i < source.mNumLights; ++i)
+        report.unused.push_back(fmt::format("light '{}'", source.mLights[i]->mName.C_Str()));
+    if (source.mNumAnimations > 0)
+        report.unused.push_back(
+            fmt::format("{} animations (the rest pose is used)", source.mNumAnimations));
+    std::size_t loose = 0;
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+        const aiMesh& mesh = *source.mMeshes[i];
+        if (mesh.HasBones())
+            report.unused.push_back(
+                fmt::format("skin of mesh '{}' (the rest pose is used)", mesh.mName.C_Str()));
+        if (mesh.mNumAnimMeshes > 0)
+            report.unused.push_back(
+                fmt::format("morph targets of mesh '{}'", mesh.mName.C_Str()));
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k)
+            loose += mesh.mFaces[k].mNumIndices < 3 ? 1 : 0;
+    }
+    if (loose > 0)
+        report.unused.push_back(fmt::format("{} points and lines", loose));
+    for (const std::string& file : io.refused())
+        report.unused.push_back(
+            fmt::format("file '{}' (missing, too large or outside the scene's folder)", file));
+}
+
+// glTF says that a mesh without normals is flat, and that vertex colours are linear.
+bool wants_smooth_normals(FileFormat format) {
+    return format != FileFormat::gltf;
+}
+
+void decode_vertex_colours(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) {
+        for (Imath::V3f& c : mesh.colours)
+            c = {linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z)};
+    }
+}
+
+// Colour per vertex is the base colour where the file gives no other.
+void whiten_coloured_materials(Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        if (!mesh.colours.empty())
+            scene.materials[mesh.material].base_colour = Imath::V3f(1);
+    }
+}
+
+bool lacks_normals(const aiScene& source) {
+    return std::any_of(source.mMeshes, source.mMeshes + source.mNumMeshes,
+                       [](const aiMesh* mesh) { return !mesh->HasNormals(); });
+}
+
+const aiScene& read_file(Assimp::Importer& importer,
+                         const fs::path& path,
+                         FileFormat format,
+                         ImportReport& report) {
+    const std::string file = path.string();
+    const auto require = [&](const aiScene* source) -> const aiScene& {
+        if (source == nullptr || source->mRootNode == nullptr)
+            throw SceneError(
+                SceneFault::corrupt_file,
+                fmt::format("scene '{}' cannot be read: {}", file, importer.GetErrorString()));
+        return *source;
+    };
+    const aiScene& raw = require(importer.ReadFile(file, 0));
+    for (unsigned i = 0; i < raw.mNumMeshes; ++i)
+        check_mesh(file, *raw.mMeshes[i]);
+    report_unused(raw, *static_cast<FolderIo*>(importer.GetIOHandler()), report);
+    if (raw.mNumMeshes == 0)
+        throw SceneError(SceneFault::no_geometry,
+                         fmt::format("scene '{}' holds no mesh; expected at least one", file));
+    if (lacks_normals(raw))
+        report.repairs.emplace_back(wants_smooth_normals(format)
+                                        ? "missing normals made, smooth up to 60 degree edges"
+                                        : "meshes without normals are shaded flat");
+    unsigned steps =
+        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
+    if (wants_smooth_normals(format))
+        steps |= aiProcess_GenSmoothNormals;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseDegrees);
+    return require(importer.ApplyPostProcessing(steps));
+}
+
+}  // namespace
+
+Scene import_scene(const fs::path& path, const ImportOptions& options) {
+    const FileFormat format = format_of(path);
+    check_file(path, options.max_file_bytes);
+    Scene scene;
+    scene.name = path.stem().string();
+    try {
+        const fs::path folder = fs::absolute(path).parent_path();
+        Assimp::Importer importer;
+        importer.SetIOHandler(
+            new FolderIo(folder, options.max_file_bytes));  // importer owns it
+        const aiScene& source = read_file(importer, path, format, scene.report);
+        import_meshes(source, options.max_triangles, options.max_nodes, scene);
+        MaterialImporter(source, format, folder, options.max_textures, scene).import_all();
+        const auto camera = import_camera(source, scene.report);
+        if (!options.camera && !camera)
+            throw SceneError(
+                SceneFault::no_camera,
+                fmt::format("scene '{}' holds no perspective camera; expected one, or "
+                            "eye, look-at and field of view as options",
+                            path.string()));
+        scene.camera = options.camera ? *options.camera : *camera;
+    } catch (const std::bad_alloc&) {
+        throw SceneError(SceneFault::too_large,
+                         fmt::format("scene '{}' does not fit into memory", path.string()));
+    }
+    finish_scene(scene);
+    if (format != FileFormat::gltf)
+        decode_vertex_colours(scene);
+    if (format == FileFormat::ply)
+        whiten_coloured_materials(scene);
+    return scene;
+}
+
+}  // namespace relume::scene

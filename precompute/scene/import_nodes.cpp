@@ -1,0 +1,161 @@
+#include "precompute/scene/import_nodes.h"
+
+#include "precompute/scene/error.h"
+
+#include <Imath/ImathMatrix.h>
+#include <assimp/camera.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace relume::scene {
+namespace {
+
+// Imath multiplies row vectors, assimp column vectors: hence the transpose.
+Imath::M44f matrix_of(const aiMatrix4x4& m) {
+    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
+            m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+}
+
+Imath::V3f vector_of(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+Imath::V3f transformed_direction(const Imath::M44f& m, const Imath::V3f& direction) {
+    Imath::V3f out;
+    m.multDirMatrix(direction, out);
+    return out;
+}
+
+// Normals go with the cofactors of the matrix: right for any scale and mirror, no inverse.
+Imath::M33f cofactors_of(const Imath::M44f& m) {
+    const Imath::V3f x(m[0][0], m[0][1], m[0][2]);
+    const Imath::V3f y(m[1][0], m[1][1], m[1][2]);
+    const Imath::V3f z(m[2][0], m[2][1], m[2][2]);
+    const Imath::V3f yz = y.cross(z);
+    const Imath::V3f zx = z.cross(x);
+    const Imath::V3f xy = x.cross(y);
+    return {yz.x, yz.y, yz.z, zx.x, zx.y, zx.z, xy.x, xy.y, xy.z};
+}
+
+Mesh mesh_in_world(const aiMesh& from, const Imath::M44f& to_world, const std::string& name) {
+    Mesh mesh;
+    mesh.name = name;
+    mesh.material = from.mMaterialIndex;
+    mesh.positions.reserve(from.mNumVertices);
+    for (unsigned i = 0; i < from.mNumVertices; ++i)
+        mesh.positions.push_back(vector_of(from.mVertices[i]) * to_world);
+    if (from.HasNormals()) {
+        const Imath::M33f cofactors = cofactors_of(to_world);
+        mesh.normals.reserve(from.mNumVertices);
+        for (unsigned i = 0; i < from.mNumVertices; ++i)
+            mesh.normals.push_back((vector_of(from.mNormals[i]) * cofactors).normalized());
+    }
+    if (from.HasTextureCoords(0)) {
+        mesh.uvs.reserve(from.mNumVertices);
+        for (unsigned i = 0; i < from.mNumVertices; ++i)
+            mesh.uvs.emplace_back(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y);
+    }
+    if (from.HasVertexColors(0)) {
+        mesh.colours.reserve(from.mNumVertices);
+        for (unsigned i = 0; i < from.mNumVertices; ++i) {
+            const aiColor4D& c = from.mColors[0][i];
+            mesh.colours.emplace_back(c.r, c.g, c.b);
+        }
+    }
+    mesh.triangles.reserve(from.mNumFaces);
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+        const aiFace& face = from.mFaces[i];
+        if (face.mNumIndices == 3)
+            mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+    }
+    return mesh;
+}
+
+std::string mesh_name(const aiNode& node, const aiMesh& mesh) {
+    return mesh.mName.length > 0 ? fmt::format("{}/{}", node.mName.C_Str(), mesh.mName.C_Str())
+                                 : std::string(node.mName.C_Str());
+}
+
+Imath::M44f world_matrix_of(const aiNode* node) {
+    Imath::M44f matrix;
+    for (; node != nullptr; node = node->mParent)
+        matrix = matrix * matrix_of(node->mTransformation);
+    return matrix;
+}
+
+// assimp gives the full horizontal angle, of a square picture where the file names no aspect.
+float vertical_fov_degrees(const aiCamera& camera) {
+    const float aspect = camera.mAspect > 0 ? camera.mAspect : 1.0F;
+    const float half = std::atan(std::tan(camera.mHorizontalFOV * 0.5F) / aspect);
+    return half * 360.0F / std::numbers::pi_v<float>;
+}
+
+CameraPlacement placement_of(const aiScene& source, const aiCamera& camera) {
+    const Imath::M44f to_world = world_matrix_of(source.mRootNode->FindNode(camera.mName));
+    CameraPlacement placement;
+    placement.name = camera.mName.C_Str();
+    placement.eye = vector_of(camera.mPosition) * to_world;
+    // A node's scale must not turn the view into a point or an overflow.
+    placement.look_at =
+        placement.eye + transformed_direction(to_world, vector_of(camera.mLookAt)).normalized();
+    placement.up = transformed_direction(to_world, vector_of(camera.mUp)).normalized();
+    placement.vertical_fov_degrees = vertical_fov_degrees(camera);
+    return placement;
+}
+
+}  // namespace
+
+void import_meshes(const aiScene& source,
+                   std::uint64_t max_triangles,
+                   std::uint32_t max_nodes,
+                   Scene& scene) {
+    std::vector<std::pair<const aiNode*, Imath::M44f>> open{{source.mRootNode, Imath::M44f()}};
+    std::uint64_t triangles = 0;
+    std::uint64_t nodes = 0;
+    while (!open.empty()) {
+        const auto [node, parent] = open.back();
+        open.pop_back();
+        if (++nodes > max_nodes)
+            throw SceneError(
+                SceneFault::too_large,
+                fmt::format("scene '{}' has more than {} nodes", scene.name, max_nodes));
+        const Imath::M44f to_world = matrix_of(node->mTransformation) * parent;
+        for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+            const aiMesh& mesh = *source.mMeshes[node->mMeshes[i]];
+            triangles += mesh.mNumFaces;
+            if (triangles > max_triangles)
+                throw SceneError(SceneFault::too_large,
+                                 fmt::format("scene '{}' has more than {} triangles",
+                                             scene.name, max_triangles));
+            scene.meshes.push_back(mesh_in_world(mesh, to_world, mesh_name(*node, mesh)));
+        }
+        for (unsigned i = node->mNumChildren; i > 0; --i)  // children in the file's order
+            open.emplace_back(node->mChildren[i - 1], to_world);
+    }
+}
+
+std::optional<CameraPlacement> import_camera(const aiScene& source, ImportReport& report) {
+    std::optional<CameraPlacement> found;
+    for (unsigned i = 0; i < source.mNumCameras; ++i) {
+        const aiCamera& camera = *source.mCameras[i];
+        if (camera.mOrthographicWidth > 0) {
+            report.unused.push_back(
+                fmt::format("camera '{}': orthographic", camera.mName.C_Str()));
+        } else if (found) {
+            report.unused.push_back(fmt::format("camera '{}': the first, '{}', is used",
+                                                camera.mName.C_Str(), found->name));
+        } else {
+            found = placement_of(source, camera);
+        }
+    }
+    return found;
+}
+
+}  // namespace relume::scene
