@@ -19,6 +19,13 @@ std::string text_from_number(double number) {
     return json(number).dump();
 }
 
+std::string text_from_range(Range range) {
+    return range.lowest < -1e300 && range.highest > 1e300
+               ? "a number"
+               : "a number " + text_from_number(range.lowest) + " … " +
+                     text_from_number(range.highest);
+}
+
 [[noreturn]] void refuse_type(const json& value,
                               const std::string& path,
                               std::string expected) {
@@ -28,14 +35,12 @@ std::string text_from_number(double number) {
 }  // namespace
 
 double number_from_json(const json& value, const std::string& path, Range range) {
-    const std::string expected =
-        "a number " + text_from_number(range.lowest) + " … " + text_from_number(range.highest);
     if (!value.is_number()) {
-        refuse_type(value, path, expected);
+        refuse_type(value, path, text_from_range(range));
     }
     const auto number = value.get<double>();
     if (!(number >= range.lowest && number <= range.highest)) {
-        throw WireError(ErrorCode::out_of_range, path, quote(value), expected);
+        throw WireError(ErrorCode::out_of_range, path, quote(value), text_from_range(range));
     }
     return number;
 }
@@ -44,18 +49,19 @@ std::uint64_t integer_from_json(const json& value,
                                 const std::string& path,
                                 std::uint64_t lowest,
                                 std::uint64_t highest) {
-    const std::string expected =
-        "an integer " + std::to_string(lowest) + " … " + std::to_string(highest);
+    const auto expected = [&] {
+        return "an integer " + std::to_string(lowest) + " … " + std::to_string(highest);
+    };
     if (!value.is_number()) {
-        refuse_type(value, path, expected);
+        refuse_type(value, path, expected());
     }
     const auto number = value.get<double>();
     if (number != std::floor(number)) {
-        refuse_type(value, path, expected);
+        refuse_type(value, path, expected());
     }
     // All bounds are below 2^53, where doubles and integers agree.
     if (!(number >= static_cast<double>(lowest) && number <= static_cast<double>(highest))) {
-        throw WireError(ErrorCode::out_of_range, path, quote(value), expected);
+        throw WireError(ErrorCode::out_of_range, path, quote(value), expected());
     }
     return static_cast<std::uint64_t>(number);
 }
