@@ -1,0 +1,321 @@
+#include "protocol/transport/manifest.h"
+
+#include "protocol/basis/cubemap.h"
+#include "protocol/transport/checksum.h"
+#include "protocol/transport/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume::transport {
+namespace {
+
+using nlohmann::json;
+
+// Reads members of one object, naming the place in every complaint.
+class ObjectReader {
+  public:
+    ObjectReader(const json& object, std::string place)
+        : object_(object), place_(std::move(place)) {
+        if (!object.is_object()) {
+            fail("", object.type_name(), "an object");
+        }
+    }
+
+    [[nodiscard]] const json& member(const char* key) const {
+        const auto found = object_.find(key);
+        if (found == object_.end()) {
+            fail(key, "missing", "a value");
+        }
+        return *found;
+    }
+    [[nodiscard]] ObjectReader object(const char* key) const {
+        return {member(key), place_ + "." + key};
+    }
+    [[nodiscard]] std::string text(const char* key) const {
+        const json& value = member(key);
+        if (!value.is_string()) {
+            fail(key, value.type_name(), "a string");
+        }
+        return value.get<std::string>();
+    }
+    [[nodiscard]] std::uint64_t integer(const char* key,
+                                        std::uint64_t low,
+                                        std::uint64_t high) const {
+        const json& value = member(key);
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() < low ||
+            value.get<std::uint64_t>() > high) {
+            fail(key, value.dump(), fmt::format("an integer from {} to {}", low, high));
+        }
+        return value.get<std::uint64_t>();
+    }
+    [[nodiscard]] std::uint32_t integer32(const char* key,
+                                          std::uint32_t low,
+                                          std::uint32_t high) const {
+        return static_cast<std::uint32_t>(integer(key, low, high));
+    }
+    [[nodiscard]] std::uint64_t digits(const char* key) const {
+        const auto value = checksum_from_text(text(key));
+        if (!value) {
+            fail(key, text(key), "16 hexadecimal digits");
+        }
+        return *value;
+    }
+    [[nodiscard]] float number(const char* key) const { return number_from(member(key), key); }
+    [[nodiscard]] Imath::V3f vector(const char* key) const {
+        const json& value = member(key);
+        if (!value.is_array() || value.size() != 3) {
+            fail(key, value.dump(), "three numbers");
+        }
+        return {number_from(value[0], key), number_from(value[1], key),
+                number_from(value[2], key)};
+    }
+    void expect_text(const char* key, const char* expected) const {
+        if (text(key) != expected) {
+            fail(key, text(key), expected);
+        }
+    }
+    void expect_integer(const char* key, std::uint64_t expected) const {
+        [[maybe_unused]] const std::uint64_t value = integer(key, expected, expected);
+    }
+    [[noreturn]] void fail(std::string_view key,
+                           std::string_view found,
+                           std::string_view expected) const {
+        throw TransportError(fmt::format("{}{}{}: found {}, expected {}", place_,
+                                         key.empty() ? "" : ".", key, found, expected));
+    }
+
+  private:
+    [[nodiscard]] float number_from(const json& value, const char* key) const {
+        if (!value.is_number() || !std::isfinite(value.get<float>())) {
+            fail(key, value.dump(), "a finite number");
+        }
+        return value.get<float>();
+    }
+
+    const json& object_;
+    std::string place_;
+};
+
+bool is_safe_relative(const std::string& name) {
+    const std::filesystem::path path(name);
+    return !name.empty() && path.is_relative() &&
+           std::none_of(path.begin(), path.end(),
+                        [](const auto& part) { return part == ".."; });
+}
+
+std::string file_name(const ObjectReader& record) {
+    std::string name = record.text("file");
+    if (!is_safe_relative(name)) {
+        record.fail("file", name, "a relative path without '..'");
+    }
+    return name;
+}
+
+json json_from(const Imath::V3f& v) {
+    return json::array({v.x, v.y, v.z});
+}
+
+json json_from(const FileRecord& record) {
+    return {{"file", record.file},
+            {"bytes", record.bytes},
+            {"xxh3", text_from_checksum(record.checksum)}};
+}
+
+FileRecord file_record(const ObjectReader& record) {
+    return {.file = file_name(record),
+            .bytes = record.integer("bytes", 0, std::uint64_t{1} << 40),
+            .checksum = record.digits("xxh3")};
+}
+
+json json_from(const ColourModel& colour) {
+    json matrix = json::array();
+    for (const auto& row : colour.matrix) {
+        matrix.push_back(std::vector<float>(row.begin(), row.begin() + colour.channels));
+    }
+    return {{"channels", colour.channels}, {"matrix", matrix}};
+}
+
+ColourModel colour_model(const ObjectReader& object) {
+    ColourModel colour;
+    colour.channels = object.integer32("channels", 1, kMaxChannels);
+    if (colour.channels == 2) {
+        object.fail("channels", "2", "1 or 3");
+    }
+    const json& matrix = object.member("matrix");
+    const bool shaped =
+        matrix.is_array() && matrix.size() == kColours &&
+        std::all_of(matrix.begin(), matrix.end(), [&](const json& row) {
+            return row.is_array() && row.size() == colour.channels &&
+                   std::all_of(row.begin(), row.end(), [](const json& value) {
+                       return value.is_number() && std::isfinite(value.get<float>());
+                   });
+        });
+    if (!shaped) {
+        object.fail("matrix", matrix.dump(),
+                    fmt::format("3 rows of {} numbers", colour.channels));
+    }
+    for (std::size_t c = 0; c < kColours; ++c) {
+        for (std::size_t k = 0; k < colour.channels; ++k) {
+            colour.matrix[c][k] = matrix[c][k].get<float>();
+        }
+    }
+    return colour;
+}
+
+json json_from(const CameraRecord& camera) {
+    return {{"eye", json_from(camera.eye)},
+            {"right", json_from(camera.right)},
+            {"up", json_from(camera.up)},
+            {"forward", json_from(camera.forward)},
+            {"tan_half_width", camera.tan_half_width},
+            {"tan_half_height", camera.tan_half_height}};
+}
+
+CameraRecord camera_record(const ObjectReader& object) {
+    return {.eye = object.vector("eye"),
+            .right = object.vector("right"),
+            .up = object.vector("up"),
+            .forward = object.vector("forward"),
+            .tan_half_width = object.number("tan_half_width"),
+            .tan_half_height = object.number("tan_half_height")};
+}
+
+json json_from(const ShardRecord& shard) {
+    return {{"file", shard.file},
+            {"bytes", shard.bytes},
+            {"header_xxh3", text_from_checksum(shard.header_checksum)},
+            {"first_block", shard.first_block},
+            {"block_count", shard.block_count}};
+}
+
+// Shards must cover the blocks in order and without a gap.
+std::vector<ShardRecord> shard_records(const ObjectReader& top,
+                                       std::uint32_t block_count,
+                                       std::string_view file) {
+    const json& list = top.member("shards");
+    if (!list.is_array()) {
+        top.fail("shards", list.type_name(), "an array");
+    }
+    std::vector<ShardRecord> shards;
+    std::uint32_t next_block = 0;
+    for (const json& entry : list) {
+        const ObjectReader record(entry, fmt::format("{}: shards[{}]", file, shards.size()));
+        ShardRecord shard{
+            .file = file_name(record),
+            .bytes = record.integer("bytes", 0, std::uint64_t{1} << 40),
+            .header_checksum = record.digits("header_xxh3"),
+            .first_block = record.integer32("first_block", next_block, next_block),
+            .block_count = record.integer32("block_count", 1, kMaxBlocksPerShard)};
+        next_block += shard.block_count;
+        shards.push_back(std::move(shard));
+    }
+    if (next_block != block_count) {
+        top.fail("shards", fmt::format("{} blocks", next_block),
+                 fmt::format("{} blocks", block_count));
+    }
+    return shards;
+}
+
+// Splits off and verifies the first line, {"xxh3":"…",
+void check_first_line(std::string_view text, std::string_view file) {
+    constexpr std::string_view kBegin = "{\"xxh3\":\"";
+    constexpr std::string_view kEnd = "\",";
+    const std::size_t newline = text.find('\n');
+    const std::string_view line = text.substr(0, newline);
+    constexpr std::size_t kDigits = 16;
+    if (newline == std::string_view::npos ||
+        line.size() != kBegin.size() + kDigits + kEnd.size() || !line.starts_with(kBegin) ||
+        !line.ends_with(kEnd)) {
+        throw TransportError(
+            fmt::format("{}: first line: expected {{\"xxh3\":\"<16 digits>\",", file));
+    }
+    const auto expected = line.substr(kBegin.size(), kDigits);
+    const auto found =
+        text_from_checksum(checksum(std::as_bytes(std::span(text.substr(newline + 1)))));
+    if (found != expected) {
+        throw TransportError(
+            fmt::format("{}: checksum is {}, expected {}", file, found, expected));
+    }
+}
+
+}  // namespace
+
+Imath::V3f CameraRecord::direction_from_pixel(float x, float y, const TileGrid& image) const {
+    const float right_amount = (2 * x / static_cast<float>(image.width) - 1) * tan_half_width;
+    const float up_amount = (1 - 2 * y / static_cast<float>(image.height)) * tan_half_height;
+    return (forward + right * right_amount + up * up_amount).normalized();
+}
+
+std::string text_from_manifest(const Manifest& manifest) {
+    json shards = json::array();
+    for (const ShardRecord& shard : manifest.shards) {
+        shards.push_back(json_from(shard));
+    }
+    const json object{
+        {"format", "relume-transport"},
+        {"version", kFormatVersion},
+        {"kind", "image"},
+        {"generator", manifest.generator},
+        {"fingerprint", text_from_checksum(manifest.fingerprint)},
+        {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
+        {"basis", {{"name", "haar"}, {"face_resolution", manifest.face_resolution}}},
+        {"colour", json_from(manifest.colour)},
+        {"blocks", manifest.block_count()},
+        {"sketch", {{"rows", manifest.sketch_rows}}},
+        {"files",
+         {{"columns", json_from(manifest.columns)},
+          {"receivers", json_from(manifest.receivers)},
+          {"sketch", json_from(manifest.sketch)}}},
+        {"shards", shards},
+        {"camera", json_from(manifest.camera)},
+        {"bake", manifest.bake},
+        {"measured", manifest.measured}};
+    // The object's text without its opening brace follows the checksum line.
+    const std::string body = object.dump(1).substr(1) + "\n";
+    return fmt::format("{{\"xxh3\":\"{}\",\n{}",
+                       text_from_checksum(checksum(std::as_bytes(std::span(body)))), body);
+}
+
+Manifest manifest_from_text(std::string_view text, std::string_view file) {
+    check_first_line(text, file);
+    const json parsed = json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (parsed.is_discarded()) {
+        throw TransportError(fmt::format("{}: not JSON", file));
+    }
+    const ObjectReader top(parsed, std::string(file) + ": manifest");
+    top.expect_text("format", "relume-transport");
+    top.expect_integer("version", kFormatVersion);
+    top.expect_text("kind", "image");
+
+    Manifest manifest;
+    manifest.generator = top.text("generator");
+    manifest.fingerprint = top.digits("fingerprint");
+    manifest.image = {.width = top.object("image").integer32("width", 1, kMaxImageSide),
+                      .height = top.object("image").integer32("height", 1, kMaxImageSide)};
+    const ObjectReader basis = top.object("basis");
+    basis.expect_text("name", "haar");
+    manifest.face_resolution = basis.integer32("face_resolution", basis::kMinFaceResolution,
+                                               basis::kMaxFaceResolution);
+    if (!basis::is_face_resolution(manifest.face_resolution)) {
+        basis.fail("face_resolution", std::to_string(manifest.face_resolution),
+                   "a power of two from 4 to 256");
+    }
+    manifest.colour = colour_model(top.object("colour"));
+    top.expect_integer("blocks", manifest.block_count());
+    manifest.sketch_rows =
+        top.object("sketch").integer32("rows", kMinSketchRows, kMaxSketchRows);
+    const ObjectReader files = top.object("files");
+    manifest.columns = file_record(files.object("columns"));
+    manifest.receivers = file_record(files.object("receivers"));
+    manifest.sketch = file_record(files.object("sketch"));
+    manifest.shards = shard_records(top, manifest.block_count(), file);
+    manifest.camera = camera_record(top.object("camera"));
+    manifest.bake = top.member("bake");
+    manifest.measured = top.member("measured");
+    return manifest;
+}
+
+}  // namespace relume::transport

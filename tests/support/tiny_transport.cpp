@@ -1,0 +1,161 @@
+#include "tests/support/tiny_transport.h"
+
+#include "protocol/basis/haar.h"
+#include "protocol/transport/cell.h"
+#include "protocol/transport/transport_writer.h"
+
+#include <cmath>
+#include <random>
+
+namespace relume::test {
+namespace {
+
+using transport::kBlockSize;
+using transport::kColours;
+
+// Draws one cell; its kind decides which encoding it will need.
+transport::QuantisedCell random_cell(std::mt19937_64& random, float density) {
+    transport::QuantisedCell cell{};
+    std::uniform_real_distribution<float> uniform(0, 1);
+    if (uniform(random) > density) {
+        return cell;
+    }
+    constexpr float kRareKinds = 0.03F;
+    const float kind = uniform(random);
+    const int range = kind < kRareKinds ? 100000 : (kind < 3 * kRareKinds ? 2000 : 127);
+    const float occupancy = uniform(random);
+    std::uniform_int_distribution<int> value(-range, range);
+    for (std::int32_t& q : cell) {
+        q = uniform(random) < occupancy ? value(random) : 0;
+    }
+    return cell;
+}
+
+transport::Manifest tiny_manifest(const TinyTransportOptions& options) {
+    transport::Manifest manifest;
+    manifest.generator = "relume tests";
+    manifest.fingerprint = options.seed;
+    manifest.image = {.width = options.width, .height = options.height};
+    manifest.face_resolution = options.face_resolution;
+    manifest.sketch_rows = 256;
+    manifest.colour.channels = options.channels;
+    if (options.channels == 1) {
+        manifest.colour.matrix = {{{1}, {1}, {1}}};
+    } else {
+        manifest.colour.matrix = {{{1, 0.5F, 0}, {1, -0.25F, 0.25F}, {1, 0, -0.5F}}};
+    }
+    return manifest;
+}
+
+transport::BakedTables tiny_tables(const transport::Manifest& manifest,
+                                   std::mt19937_64& random) {
+    transport::BakedTables tables;
+    const std::uint32_t channels = manifest.colour.channels;
+    for (std::size_t j = 0; j < manifest.column_count(); ++j) {
+        const auto band = basis::band_from_coefficient(manifest.face_resolution, j);
+        for (std::uint32_t k = 0; k < channels; ++k) {
+            tables.steps.push_back(std::ldexp(1e-4F, -static_cast<int>(band + k)));
+        }
+    }
+    const std::size_t receivers = std::size_t{manifest.block_count()} * kBlockSize;
+    std::uniform_real_distribution<float> tint(0.2F, 1);
+    tables.coverage.assign(receivers, 0);
+    tables.tint.assign(receivers * kColours, 0);
+    for (std::uint32_t y = 0; y < manifest.image.height; ++y) {
+        for (std::uint32_t x = 0; x < manifest.image.width; ++x) {
+            const auto [block, slot] = manifest.image.receiver_from_pixel(x, y);
+            tables.coverage[block * kBlockSize + slot] =
+                y * 4 < manifest.image.height ? 0.5F : 1;
+            for (std::size_t c = 0; c < kColours; ++c) {
+                tables.tint[(block * kColours + c) * kBlockSize + slot] = tint(random);
+            }
+        }
+    }
+    return tables;
+}
+
+// Slots outside the image hold nothing.
+void clear_outside(const transport::TileGrid& image,
+                   std::uint32_t block,
+                   transport::QuantisedCell& cell) {
+    const std::uint32_t x0 = block % image.tiles_x() * transport::kTileSide;
+    const std::uint32_t y0 = block / image.tiles_x() * transport::kTileSide;
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        const bool inside = x0 + slot % transport::kTileSide < image.width &&
+                            y0 + slot / transport::kTileSide < image.height;
+        cell[slot] = inside ? cell[slot] : 0;
+    }
+}
+
+}  // namespace
+
+void write_tiny_transport(const std::filesystem::path& directory,
+                          const TinyTransportOptions& options) {
+    const transport::Manifest manifest = tiny_manifest(options);
+    const transport::ShardPlan plan{.block_count = manifest.block_count(),
+                                    .blocks_per_shard = options.blocks_per_shard};
+    std::mt19937_64 random(options.seed);
+    const std::size_t segments = std::size_t{manifest.column_count()} * options.channels;
+    transport::TransportWriter writer(directory, manifest, plan);
+    for (std::uint32_t shard = 0; shard < plan.shard_count(); ++shard) {
+        std::vector<transport::EncodedBlock> blocks;
+        for (std::uint32_t i = 0; i < plan.blocks_in(shard); ++i) {
+            blocks.emplace_back(segments);
+            for (std::size_t segment = 0; segment < segments; ++segment) {
+                auto cell = random_cell(random, options.density);
+                clear_outside(manifest.image, plan.first_block(shard) + i, cell);
+                blocks.back().append(cell);
+            }
+        }
+        writer.write_shard(shard, blocks);
+    }
+    writer.finish(tiny_tables(manifest, random), {{"note", "random"}});
+}
+
+std::vector<double> dense_product(const transport::Transport& transport,
+                                  std::span<const float> lighting) {
+    const std::size_t columns = transport.column_count();
+    const auto& colour = transport.manifest().colour;
+    std::vector<double> sums(std::size_t{transport.manifest().block_count()} * kColours *
+                             kBlockSize);
+    transport::DecodedCell values;
+    for (const transport::ShardReader& shard : transport.shards()) {
+        for (std::size_t j = 0; j < columns; ++j) {
+            for (std::uint32_t k = 0; k < colour.channels; ++k) {
+                const transport::SegmentView segment = shard.segment(j, k);
+                if (segment.empty()) {
+                    continue;
+                }
+                const std::uint8_t* cell = segment.cells;
+                for (std::uint32_t block = 0; block < shard.block_count(); ++block) {
+                    cell = transport::decode_cell(segment.tag(block), cell, values);
+                    const std::size_t first =
+                        std::size_t{shard.first_block() + block} * kColours * kBlockSize;
+                    for (std::size_t c = 0; c < kColours; ++c) {
+                        const double weight = double{transport.step(j, k)} *
+                                              double{colour.matrix[c][k]} *
+                                              double{lighting[c * columns + j]};
+                        for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                            sums[first + c * kBlockSize + slot] +=
+                                weight * double{values[slot]};
+                        }
+                    }
+                }
+            }
+        }
+    }
+    return sums;
+}
+
+double relative_l2(std::span<const float> a, std::span<const double> b) {
+    double difference = 0;
+    double norm = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double d = double{a[i]} - b[i];
+        difference += d * d;
+        norm += b[i] * b[i];
+    }
+    return std::sqrt(difference / norm);
+}
+
+}  // namespace relume::test

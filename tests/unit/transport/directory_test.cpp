@@ -1,0 +1,91 @@
+#include "protocol/transport/error.h"
+#include "protocol/transport/transport.h"
+#include "protocol/transport/transport_writer.h"
+#include "tests/support/scratch_directory.h"
+#include "tests/support/tiny_transport.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace relume::transport {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Directory : public testing::TestWithParam<std::uint32_t> {
+  protected:
+    test::ScratchDirectory scratch_;
+    std::filesystem::path path_ = scratch_.path() / "tiny.relume";
+    test::TinyTransportOptions options_{.channels = GetParam()};
+};
+
+TEST_P(Directory, OpensWhatWasWritten) {
+    test::write_tiny_transport(path_, options_);
+    const auto transport = Transport::open(path_);
+    EXPECT_EQ(transport->manifest().image.width, options_.width);
+    EXPECT_EQ(transport->channel_count(), options_.channels);
+    EXPECT_EQ(transport->shards().size(), 2U);
+    EXPECT_EQ(transport->manifest().measured.at("note"), "random");
+    EXPECT_GT(transport->manifest().measured.at("cells").at("dense32f").at("cells"), 0);
+}
+
+TEST_P(Directory, TwoBakesOfOneInputGiveIdenticalBytes) {
+    const std::filesystem::path other = scratch_.path() / "other.relume";
+    test::write_tiny_transport(path_, options_);
+    test::write_tiny_transport(other, options_);
+    for (const char* file : {"manifest.json", "columns.bin", "receivers.bin", "sketch.bin",
+                             "shards/00000.shard", "shards/00001.shard"}) {
+        EXPECT_EQ(contents(path_ / file), contents(other / file)) << file;
+    }
+}
+
+TEST_P(Directory, EnergiesAndSketchAreThoseOfTheStoredColumns) {
+    test::write_tiny_transport(path_, options_);
+    const auto transport = Transport::open(path_);
+    const std::size_t columns = transport->column_count();
+    const auto tint = transport->tint();
+    for (std::size_t j = 0; j < columns; j += 17) {
+        for (std::uint32_t c = 0; c < kColours; ++c) {
+            std::vector<float> lighting(kColours * columns);
+            lighting[c * columns + j] = 1;
+            const auto sums = test::dense_product(*transport, lighting);
+            double energy = 0;
+            for (std::size_t i = 0; i < sums.size(); ++i) {
+                energy += sums[i] * sums[i] * double{tint[i]} * double{tint[i]};
+            }
+            EXPECT_NEAR(transport->energy(j, c), energy, 1e-5 * energy);
+            double sketched = 0;
+            const double scale = transport->sketch_scale(j, c);
+            for (const std::int16_t value : transport->sketch(j, c)) {
+                sketched += scale * value * scale * value;
+            }
+            // Relative standard deviation of one column's estimate is √(2/256) = 0.09.
+            EXPECT_NEAR(sketched, energy, 0.55 * energy);
+        }
+    }
+}
+
+TEST_P(Directory, AWriterKnowsItsOwnShardsOnly) {
+    test::write_tiny_transport(path_, options_);
+    Manifest manifest = Transport::open(path_)->manifest();
+    const ShardPlan plan{.block_count = manifest.block_count(), .blocks_per_shard = 3};
+    EXPECT_TRUE(TransportWriter(path_, manifest, plan).has_shard(1));
+    EXPECT_FALSE(std::filesystem::exists(path_ / "manifest.json"))
+        << "a directory being written must not pass for a whole one";
+    manifest.fingerprint += 1;
+    EXPECT_FALSE(TransportWriter(path_, manifest, plan).has_shard(1));
+    manifest.fingerprint -= 1;
+    std::filesystem::resize_file(path_ / "shards/00001.shard", 1000);
+    EXPECT_FALSE(TransportWriter(path_, manifest, plan).has_shard(1));
+    EXPECT_THROW(TransportWriter(path_, manifest, plan).finish({}, {}), TransportError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Channels, Directory, testing::Values(1U, 3U));
+
+}  // namespace
+}  // namespace relume::transport

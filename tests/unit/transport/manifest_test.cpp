@@ -1,0 +1,120 @@
+#include "protocol/transport/manifest.h"
+
+#include "protocol/transport/checksum.h"
+#include "protocol/transport/error.h"
+
+#include <gtest/gtest.h>
+
+namespace relume::transport {
+namespace {
+
+Manifest sample() {
+    Manifest manifest;
+    manifest.generator = "test";
+    manifest.image = {.width = 33, .height = 16};
+    manifest.face_resolution = 8;
+    manifest.sketch_rows = 64;
+    manifest.colour.matrix = {{{1}, {0.5F}, {0.25F}}};
+    manifest.columns = {.file = "columns.bin", .bytes = 5, .checksum = 6};
+    manifest.receivers = {.file = "receivers.bin", .bytes = 7, .checksum = 8};
+    manifest.sketch = {.file = "sketch.bin", .bytes = 9, .checksum = 10};
+    manifest.shards = {{.file = "shards/0",
+                        .bytes = 1,
+                        .header_checksum = 2,
+                        .first_block = 0,
+                        .block_count = 2},
+                       {.file = "shards/1",
+                        .bytes = 3,
+                        .header_checksum = 4,
+                        .first_block = 2,
+                        .block_count = 1}};
+    return manifest;
+}
+
+// The manifest's text after a change to its JSON, with the checksum made right again.
+std::string changed(const std::function<void(nlohmann::json&)>& change) {
+    nlohmann::json object = nlohmann::json::parse(text_from_manifest(sample()));
+    object.erase("xxh3");
+    change(object);
+    const std::string body = object.dump().substr(1);
+    return "{\"xxh3\":\"" + text_from_checksum(checksum(std::as_bytes(std::span(body)))) +
+           "\",\n" + body;
+}
+
+TEST(Manifest, ComesBackFromItsText) {
+    const std::string text = text_from_manifest(sample());
+    EXPECT_EQ(text_from_manifest(manifest_from_text(text, "m")), text);
+    EXPECT_NO_THROW((void)manifest_from_text(changed([](auto&) {}), "m"));
+}
+
+TEST(Manifest, NamesFileKeyFoundAndExpected) {
+    const auto text = changed([](nlohmann::json& m) { m["image"]["width"] = 99999; });
+    try {
+        (void)manifest_from_text(text, "some/manifest.json");
+        FAIL() << "a width of 99999 was accepted";
+    } catch (const TransportError& error) {
+        EXPECT_STREQ(error.what(),
+                     "some/manifest.json: manifest.image.width: found 99999, expected an "
+                     "integer from 1 to 16384");
+    }
+}
+
+TEST(Manifest, RefusesEveryWrongValue) {
+    using Change = std::function<void(nlohmann::json&)>;
+    const Change changes[] = {
+        [](auto& m) { m["format"] = "other"; },
+        [](auto& m) { m["version"] = 2; },
+        [](auto& m) { m["kind"] = "curve"; },
+        [](auto& m) { m.erase("image"); },
+        [](auto& m) { m["image"] = 3; },
+        [](auto& m) { m["image"]["height"] = -1; },
+        [](auto& m) { m["image"]["height"] = 1.5; },
+        [](auto& m) { m["basis"]["name"] = "sh"; },
+        [](auto& m) { m["basis"]["face_resolution"] = 12; },
+        [](auto& m) { m["basis"]["face_resolution"] = 512; },
+        [](auto& m) { m["colour"]["channels"] = 2; },
+        [](auto& m) {
+            m["colour"]["matrix"] = nlohmann::json::array({1, 2, 3});
+        },
+        [](auto& m) { m["colour"]["matrix"][0][0] = "x"; },
+        [](auto& m) { m["blocks"] = 4; },
+        [](auto& m) { m["sketch"]["rows"] = 100000; },
+        [](auto& m) { m["files"]["columns"]["file"] = "../columns.bin"; },
+        [](auto& m) { m["files"]["columns"]["file"] = "/etc/passwd"; },
+        [](auto& m) { m["files"]["columns"]["file"] = ""; },
+        [](auto& m) { m["files"]["sketch"]["xxh3"] = "12"; },
+        [](auto& m) { m["fingerprint"] = "00000000000000ZZ"; },
+        [](auto& m) { m["shards"] = nullptr; },
+        [](auto& m) { m["shards"][1]["first_block"] = 1; },
+        [](auto& m) { m["shards"].erase(1); },
+        [](auto& m) { m["shards"][0]["block_count"] = 65; },
+        [](auto& m) {
+            m["camera"]["eye"] = {1, 2};
+        },
+        [](auto& m) { m["camera"]["tan_half_width"] = "wide"; },
+    };
+    int number = 0;
+    for (const Change& change : changes) {
+        EXPECT_THROW((void)manifest_from_text(changed(change), "m"), TransportError)
+            << "change " << number;
+        ++number;
+    }
+}
+
+TEST(Manifest, RefusesTextThatIsNotOne) {
+    for (const char* text : {"", "{}", "\n", "{\"xxh3\":\"0123456789abcdef\",\n",
+                             "{\"xxh3\":\"0123456789abcdef\",\n}"}) {
+        EXPECT_THROW((void)manifest_from_text(text, "m"), TransportError) << text;
+    }
+}
+
+TEST(Manifest, CameraLooksThroughThePixelsOfTheImage) {
+    const TileGrid image{.width = 4, .height = 2};
+    const CameraRecord camera{.tan_half_width = 2, .tan_half_height = 1};
+    EXPECT_EQ(camera.direction_from_pixel(2, 1, image), Imath::V3f(0, 0, -1));
+    const Imath::V3f corner = camera.direction_from_pixel(0, 0, image);
+    EXPECT_LT((corner - Imath::V3f(-2, 1, -1).normalized()).length(), 1e-6F);
+}
+
+}  // namespace
+}  // namespace relume::transport
