@@ -67,6 +67,11 @@ json parse_json(std::string_view text, std::size_t max_bytes) {
         throw WireError(ErrorCode::too_large, "", std::to_string(text.size()) + " bytes",
                         "at most " + std::to_string(max_bytes) + " bytes");
     }
+    // nlohmann::json takes a NUL for the end of the text and would not look behind it.
+    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+        throw WireError(ErrorCode::malformed_json, "", "a NUL at byte " + std::to_string(nul),
+                        "JSON in UTF-8");
+    }
     try {
         StructureCheck check;
         return json::parse(text.begin(), text.end(), std::ref(check));

@@ -1,0 +1,176 @@
+#include "protocol/wire/messages.h"
+
+#include "tests/unit/wire/vectors.h"
+
+#include <gtest/gtest.h>
+
+namespace relume::wire {
+namespace {
+
+using nlohmann::json;
+
+WireError refusal_of(const std::string& text) {
+    return wire_error_of([&] { return parse_client_message(text, Limits{}); });
+}
+
+WireError server_refusal_of(const json& message) {
+    return wire_error_of([&] { return parse_server_message(message.dump()); });
+}
+
+TEST(ClientMessages, RoundTrip) {
+    const Edit edit{.id = kMaxInteger, .patch = {{"environment", {{"gain", 0.1}}}}};
+    const auto parsed = std::get<Edit>(parse_client_message(text_from_message(edit), Limits{}));
+    EXPECT_EQ(parsed.id, edit.id);
+    EXPECT_EQ(parsed.patch, edit.patch);
+    const auto ack =
+        std::get<Ack>(parse_client_message(text_from_message(Ack{.sequence = 42}), Limits{}));
+    EXPECT_EQ(ack.sequence, 42U);
+}
+
+TEST(ClientMessages, FaultsAreNamedByCodeAndPath) {
+    struct Case {
+        const char* text;
+        ErrorCode code;
+        const char* path;
+    };
+    for (const Case& c : {
+             Case{"[]", ErrorCode::wrong_type, ""},
+             Case{"{}", ErrorCode::missing_field, "/type"},
+             Case{R"({"type":1})", ErrorCode::wrong_type, "/type"},
+             Case{R"({"type":"Edit"})", ErrorCode::unknown_type, "/type"},
+             Case{R"({"type":"edit","patch":{}})", ErrorCode::missing_field, "/id"},
+             Case{R"({"type":"edit","id":-1,"patch":{}})", ErrorCode::out_of_range, "/id"},
+             Case{R"({"type":"edit","id":9007199254740992,"patch":{}})",
+                  ErrorCode::out_of_range, "/id"},
+             Case{R"({"type":"edit","id":1.5,"patch":{}})", ErrorCode::wrong_type, "/id"},
+             Case{R"({"type":"edit","id":"1","patch":{}})", ErrorCode::wrong_type, "/id"},
+             Case{R"({"type":"edit","id":1})", ErrorCode::missing_field, "/patch"},
+             Case{R"({"type":"edit","id":1,"patch":null})", ErrorCode::wrong_type, "/patch"},
+             Case{R"({"type":"edit","id":1,"patch":{},"x":0})", ErrorCode::unknown_field, "/x"},
+             Case{R"({"type":"ack"})", ErrorCode::missing_field, "/sequence"},
+             Case{R"({"type":"ack","sequence":true})", ErrorCode::wrong_type, "/sequence"},
+             Case{R"({"type":"ack","sequence":1e400})", ErrorCode::out_of_range, ""},
+             Case{R"({"type":"ack","sequence":1,"id":1})", ErrorCode::unknown_field, "/id"},
+             Case{R"({"type":"ack","sequence":1,"sequence":2})", ErrorCode::malformed_json, ""},
+         }) {
+        const WireError error = refusal_of(c.text);
+        EXPECT_EQ(error.code(), c.code) << c.text;
+        EXPECT_EQ(error.path(), c.path) << c.text;
+        EXPECT_FALSE(error.found().empty());
+        EXPECT_FALSE(error.expected().empty());
+    }
+}
+
+TEST(ClientMessages, ARefusedEditKeepsItsIdOnceItWasRead) {
+    EXPECT_EQ(refusal_of(R"({"type":"edit","id":17,"patch":3})").edit_id(), 17U);
+    EXPECT_EQ(refusal_of(R"({"type":"edit","id":17,"patch":{},"x":0})").edit_id(), 17U);
+    EXPECT_EQ(refusal_of(R"({"type":"edit","id":"a"})").edit_id(), std::nullopt);
+}
+
+TEST(ClientMessages, TheLimitIsThatOfTheLimits) {
+    Limits limits;
+    const std::string text = text_from_message(Ack{.sequence = 1});
+    limits.message_bytes = text.size();
+    EXPECT_NO_THROW(static_cast<void>(parse_client_message(text, limits)));
+    limits.message_bytes = text.size() - 1;
+    EXPECT_EQ(wire_error_of([&] { return parse_client_message(text, limits); }).code(),
+              ErrorCode::too_large);
+}
+
+Snapshot busy_snapshot() {
+    Snapshot snapshot{
+        .room = "studio",
+        .scene = {.name = "table", .width = 512, .height = 384, .face_resolution = 64},
+        .revision = 7,
+        .state = {},
+        .viewers = 2,
+        .limits = {}};
+    snapshot.limits.rooms = 3;
+    snapshot.state.environment = {.name = "city", .gain = 0.1, .tint = {0.3, 0.2, 0.1}};
+    snapshot.state.blend = {.name = "night", .amount = 0.7};
+    snapshot.state.rotation = quaternion_from_yaw_pitch_roll_degrees(30, 20, 10);
+    snapshot.state.lights["key"] = {.direction = {0.6, 0, 0.8},
+                                    .angular_radius_degrees = 3.3,
+                                    .radiance = {1e8, 0, 0.1},
+                                    .gain = 0.9,
+                                    .tint = {1, 0.9, 0.8}};
+    snapshot.state.budget = {
+        .milliseconds = std::nullopt, .coefficients = 30, .target_error = 0.01};
+    snapshot.state.display = {.exposure_stops = -1.1, .tone = Tone::linear};
+    return snapshot;
+}
+
+TEST(ServerMessages, SnapshotRoundTrip) {
+    const Snapshot snapshot = busy_snapshot();
+    const auto parsed = std::get<Snapshot>(parse_server_message(text_from_message(snapshot)));
+    EXPECT_EQ(parsed.room, snapshot.room);
+    EXPECT_EQ(parsed.scene, snapshot.scene);
+    EXPECT_EQ(parsed.revision, snapshot.revision);
+    EXPECT_EQ(parsed.state, snapshot.state);
+    EXPECT_EQ(parsed.viewers, snapshot.viewers);
+    EXPECT_EQ(parsed.limits, snapshot.limits);
+}
+
+TEST(ServerMessages, ASnapshotMustBeWholeAndOfThisVersion) {
+    const json good = json::parse(text_from_message(busy_snapshot()));
+    for (const char* key :
+         {"protocol", "room", "scene", "revision", "state", "viewers", "limits"}) {
+        json bad = good;
+        bad.erase(key);
+        EXPECT_EQ(server_refusal_of(bad).code(), ErrorCode::missing_field) << key;
+    }
+    for (const auto& [key, section] : good.at("state").items()) {
+        json bad = good;
+        bad["state"].erase(key);
+        EXPECT_EQ(server_refusal_of(bad).code(), ErrorCode::missing_field) << key;
+    }
+    json newer = good;
+    newer["protocol"] = 2;
+    EXPECT_EQ(server_refusal_of(newer).code(), ErrorCode::unsupported);
+}
+
+TEST(ServerMessages, ChangeErrorAndViewersRoundTrip) {
+    const Change change{.revision = 8, .patch = {{"lights", {{"a", nullptr}}}}, .edit_id = 17};
+    const auto parsed = std::get<Change>(parse_server_message(text_from_message(change)));
+    EXPECT_EQ(parsed.revision, 8U);
+    EXPECT_EQ(parsed.patch, change.patch);
+    EXPECT_EQ(parsed.edit_id, 17U);
+
+    const WireError refusal =
+        WireError(ErrorCode::out_of_range, "/blend/amount", "2", "a number 0 … 1")
+            .with_edit_id(3);
+    const auto error = std::get<ErrorMessage>(
+        parse_server_message(text_from_message(message_from_error(refusal))));
+    EXPECT_EQ(error.code, refusal.code());
+    EXPECT_EQ(error.message, refusal.what());
+    EXPECT_EQ(error.path, refusal.path());
+    EXPECT_EQ(error.found, refusal.found());
+    EXPECT_EQ(error.expected, refusal.expected());
+    EXPECT_EQ(error.edit_id, 3U);
+
+    EXPECT_EQ(
+        std::get<Viewers>(parse_server_message(text_from_message(Viewers{.count = 5}))).count,
+        5U);
+    const auto anonymous = std::get<Change>(parse_server_message(
+        text_from_message(Change{.revision = 9, .patch = json::object(), .edit_id = {}})));
+    EXPECT_EQ(anonymous.edit_id, std::nullopt);
+}
+
+TEST(ServerMessages, AClientIgnoresFieldsItDoesNotKnow) {
+    EXPECT_EQ(
+        std::get<Viewers>(parse_server_message(R"({"type":"viewers","count":5,"names":["a"]})"))
+            .count,
+        5U);
+    EXPECT_EQ(server_refusal_of({{"type", "weather"}}).code(), ErrorCode::unknown_type);
+}
+
+TEST(ServerMessages, TextThatIsNotUtf8StillMakesJson) {
+    ErrorMessage message;
+    message.message = "file \xff\xfe.hdr";
+    EXPECT_NO_THROW(static_cast<void>(parse_server_message(text_from_message(message))));
+    const WireError error(ErrorCode::bad_image, "", "\xff", "an image");
+    EXPECT_EQ(json::parse(http_body_from_error(error)).at("error").at("code"), "bad_image");
+}
+
+}  // namespace
+}  // namespace relume::wire

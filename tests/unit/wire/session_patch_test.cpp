@@ -1,0 +1,114 @@
+#include "protocol/wire/session_patch.h"
+
+#include "tests/unit/wire/vectors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace relume::wire {
+namespace {
+
+using nlohmann::json;
+
+// Equal but for rounding in the last digits of a number.
+bool nearly_equal(const json& a, const json& b) {
+    if (a.is_number() && b.is_number()) {
+        const auto x = a.get<double>();
+        const auto y = b.get<double>();
+        return std::abs(x - y) <= 1e-12 * std::max({1.0, std::abs(x), std::abs(y)});
+    }
+    if (a.type() != b.type() || a.size() != b.size()) {
+        return false;
+    }
+    if (a.is_object()) {
+        for (const auto& [key, value] : a.items()) {
+            if (!b.contains(key) || !nearly_equal(value, b.at(key))) {
+                return false;
+            }
+        }
+        return true;
+    }
+    if (a.is_array()) {
+        return std::equal(a.begin(), a.end(), b.begin(), nearly_equal);
+    }
+    return a == b;
+}
+
+TEST(SessionPatch, SharedCases) {
+    for (const auto& c : vectors_from_file("patches")) {
+        SCOPED_TRACE(c.at("name"));
+        SessionState state = session_state_from_json(c.at("state"));
+        EXPECT_TRUE(nearly_equal(to_json(state), c.at("state"))) << to_json(state);
+        const SessionState before = state;
+        if (c.contains("error")) {
+            const WireError error =
+                wire_error_of([&] { return apply_patch(state, c.at("patch"), Limits{}); });
+            EXPECT_EQ(name_from_error_code(error.code()), c.at("error").at("code"));
+            EXPECT_EQ(error.path(), c.at("error").at("path"));
+            EXPECT_FALSE(error.found().empty());
+            EXPECT_FALSE(error.expected().empty());
+            EXPECT_EQ(state, before);
+        } else {
+            const json normalised = apply_patch(state, c.at("patch"), Limits{});
+            EXPECT_TRUE(nearly_equal(normalised, c.at("normalised"))) << normalised;
+            EXPECT_TRUE(nearly_equal(to_json(state), c.at("result"))) << to_json(state);
+        }
+    }
+}
+
+TEST(SessionPatch, NumbersReadBackAsTheyWereSet) {
+    SessionState state;
+    apply_patch(state, {{"environment", {{"gain", 0.1}, {"tint", {0.2, 0.3, 0.7}}}}}, Limits{});
+    const json object = to_json(state);
+    EXPECT_EQ(object.at("environment").at("gain").dump(), "0.1");
+    EXPECT_EQ(object.at("environment").at("tint").dump(), "[0.2,0.3,0.7]");
+}
+
+TEST(SessionPatch, LightsAreBoundedAfterTheWholePatch) {
+    const json light = {
+        {"direction", {0, 1, 0}}, {"angular_radius_degrees", 5}, {"radiance", {1, 1, 1}}};
+    Limits limits;
+    limits.lights_per_room = 2;
+    SessionState state;
+    apply_patch(state, {{"lights", {{"a", light}, {"b", light}}}}, limits);
+    const WireError error = wire_error_of([&] {
+        return apply_patch(state, {{"lights", {{"c", light}}}}, limits);
+    });
+    EXPECT_EQ(error.code(), ErrorCode::too_many);
+    EXPECT_EQ(error.path(), "/lights");
+    EXPECT_EQ(state.lights.size(), 2U);
+    apply_patch(state, {{"lights", {{"a", light}, {"b", nullptr}, {"c", light}}}}, limits);
+    EXPECT_EQ(state.lights.size(), 2U);
+    EXPECT_TRUE(state.lights.contains("c"));
+}
+
+TEST(SessionPatch, DirectionsOfAnyMagnitudeBecomeUnitVectors) {
+    for (const double scale : {1e-320, 1e-200, 0.5, 1.0, 3.0, 1e200, 1.7e308}) {
+        SessionState state;
+        apply_patch(state,
+                    {{"lights",
+                      {{"a",
+                        {{"direction", {scale, -scale, 0.0}},
+                         {"angular_radius_degrees", 5},
+                         {"radiance", {1, 1, 1}}}}}}},
+                    Limits{});
+        const Imath::V3d direction = state.lights.at("a").direction;
+        EXPECT_NEAR(direction.x, std::sqrt(0.5), 1e-12) << scale;
+        EXPECT_NEAR(direction.y, -std::sqrt(0.5), 1e-12) << scale;
+        EXPECT_EQ(direction.z, 0) << scale;
+    }
+}
+
+TEST(SessionPatch, AnglesTurnTheWayTheContractSays) {
+    SessionState state;
+    // Yaw +90° about +Y takes the source's −Z (its centre) to −X; then pitch acts before yaw.
+    apply_patch(state, {{"rotation", {{"yaw_degrees", 90}}}}, Limits{});
+    EXPECT_TRUE(state.rotation.rotateVector({0, 0, -1}).equalWithAbsError({-1, 0, 0}, 1e-12));
+    apply_patch(state, {{"rotation", {{"yaw_degrees", 90}, {"pitch_degrees", 90}}}}, Limits{});
+    EXPECT_TRUE(state.rotation.rotateVector({0, 0, -1}).equalWithAbsError({0, 1, 0}, 1e-12));
+    EXPECT_TRUE(state.rotation.rotateVector({0, 1, 0}).equalWithAbsError({1, 0, 0}, 1e-12));
+}
+
+}  // namespace
+}  // namespace relume::wire
