@@ -26,11 +26,11 @@ struct Material {
     float metallic = 0;                        // GGX
     float roughness = 1;                       // GGX, perceptual
     float normal_scale = 1;
-    float opacity = 1;                  // base alpha, used only with alpha_cutoff
-    std::optional<float> alpha_cutoff;  // glTF alphaMode MASK: holes where alpha < cutoff
-    std::optional<TextureIndex> base_texture;     // RGB × base_colour; alpha × opacity
-    std::optional<TextureIndex> surface_texture;  // glTF: roughness × G, metallic × B
-    std::optional<TextureIndex> normal_texture;   // tangent space, +Y up
+    float opacity = 1;                    // base alpha, used only with alpha_cutoff
+    std::optional<float> alpha_cutoff{};  // glTF alphaMode MASK: holes where alpha < cutoff
+    std::optional<TextureIndex> base_texture{};     // RGB × base_colour; alpha × opacity
+    std::optional<TextureIndex> surface_texture{};  // glTF: roughness × G, metallic × B
+    std::optional<TextureIndex> normal_texture{};   // tangent space, +Y up
 
     // `vertex_colour` multiplies the base colour. Thread-safe.
     [[nodiscard]] Bsdf bsdf_at(std::span<const Texture> textures,

@@ -1,0 +1,35 @@
+#include "precompute/scene/builtin.h"
+
+#include "precompute/scene/builtin/scenes.h"
+#include "precompute/scene/error.h"
+
+#include <fmt/format.h>
+
+namespace relume::scene {
+
+const std::vector<BuiltinScene>& builtin_scenes() {
+    static const std::vector<BuiltinScene> scenes{
+        {"table", "a table with chairs, a plant and glossy crockery: intricate shadows",
+         build_table},
+        {"box", "an open box with coloured walls: interreflection", build_box},
+        {"thin", "a golden knot under a grille of thin bars: glossy, fine shadows", build_thin},
+        {"mesh100k", "a displaced ball of 100,800 triangles on a ground plane", build_mesh100k},
+        {"plane", "one white plane seen from above: shows its albedo under constant light",
+         build_plane},
+        {"bowl", "a white hollow: shows 1 everywhere under constant light", build_bowl},
+    };
+    return scenes;
+}
+
+Scene build_builtin_scene(std::string_view name) {
+    std::string known;
+    for (const BuiltinScene& scene : builtin_scenes()) {
+        if (scene.name == name)
+            return scene.build();
+        known += (known.empty() ? "" : ", ") + std::string(scene.name);
+    }
+    throw SceneError(SceneFault::unknown_name,
+                     fmt::format("no built-in scene '{}'; expected one of {}", name, known));
+}
+
+}  // namespace relume::scene
