@@ -1,8 +1,8 @@
 #include "server/engine/scene.h"
 
-#include <cmath>
-
 #include "protocol/basis/haar.h"
+
+#include <cmath>
 
 namespace relume::engine {
 

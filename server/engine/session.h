@@ -1,11 +1,6 @@
 // One incremental relighting: the lighting asked for, the approximation shown, and the image.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "protocol/wire/session_state.h"
 #include "server/engine/band_images.h"
 #include "server/engine/cost_model.h"
@@ -13,6 +8,11 @@
 #include "server/engine/full_product.h"
 #include "server/engine/lighting.h"
 #include "server/engine/scene.h"
+#include "server/engine/selection.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
 
 namespace relume::engine {
 
@@ -31,7 +31,7 @@ struct StepReport {
 // the caller. The image depends only on the history of calls, not on the number of threads; an
 // exact image depends on the lighting alone, to the last bit.
 class Session {
- public:
+  public:
     Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy);
 
     // Target lighting: Haar coefficients of radiance, planar [3][N], all finite (throws
@@ -40,10 +40,11 @@ class Session {
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(wire::Strategy strategy) { strategy_ = strategy; }
 
-    // One image's worth of work: the most important differences between target and
-    // approximation, within the budget. When little is left it completes the *full product*
-    // instead, in slices of the budget, after which the image is exact and has forgotten its
-    // history [DESIGN §7.4]. Costs nothing when exact.
+    // One image's worth of work. New lighting: the method's resets, then the most important
+    // differences between target and approximation within the budget. While the lighting rests:
+    // more of them, and then (at once, where it takes only a few images' time) the *full
+    // product* in slices of the budget, after which the image is exact and has forgotten its
+    // history. Costs nothing when exact.
     StepReport advance(const wire::Budget& budget);
 
     // True when `advance` has nothing left to do under this budget: exact, or the target error
@@ -54,19 +55,23 @@ class Session {
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
     // Approximation L̃, planar [3][N].
-    [[nodiscard]] std::span<const float> approximation() const;
+    [[nodiscard]] std::span<const float> approximation() const {
+        return lighting_.approximation();
+    }
     // Sums before tint: [blocks][3][256].
     [[nodiscard]] std::span<const float> sums() const { return images_.total(); }
     // The relit image, tint applied: interleaved RGB, row by row from the top, 3·width·height
     // floats, linear radiance, premultiplied by coverage.
     void write_image(std::span<float> rgb) const;
 
- private:
+  private:
+    void begin_new_lighting(StepReport& report);
     void advance_incrementally(const wire::Budget& budget, StepReport& report);
     void advance_full_product(const wire::Budget& budget, StepReport& report);
-    void restart_if_nwa();
-    [[nodiscard]] std::uint64_t byte_budget(const wire::Budget& budget) const;
-    [[nodiscard]] bool full_product_is_cheaper(std::uint64_t remaining_bytes) const;
+    [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
+    [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
+    [[nodiscard]] SelectionBudget selection_budget(const wire::Budget& budget) const;
+    void remove_drift(StepReport& report);
 
     std::shared_ptr<const Scene> scene_;
     wire::Strategy strategy_;
@@ -74,9 +79,11 @@ class Session {
     BandImages images_;
     ErrorEstimate error_;
     CostModel cost_;
+    Selection selection_;
     FullProduct full_product_;
-    bool lighting_changed_ = false;
-    bool exact_ = true;
+    std::uint32_t remaining_ = 0;
+    bool lighting_is_new_ = false;
+    bool exact_ = true;  // a session begins with no light and a black image
 };
 
 }  // namespace relume::engine

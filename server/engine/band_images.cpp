@@ -1,0 +1,170 @@
+#include "server/engine/band_images.h"
+
+#include "server/engine/accumulate.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace relume::engine {
+namespace {
+
+using transport::kBlockSize;
+using transport::kColours;
+
+constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
+
+// One shard's worth of sums; stays in the second-level cache.
+using ShardSums = std::array<float, transport::kMaxBlocksPerShard * kSumsPerBlock>;
+
+void add_column(const transport::Transport& transport,
+                const transport::ShardReader& shard,
+                const ColumnChange& change,
+                float* sums) {
+    const transport::ColourModel& colour = transport.manifest().colour;
+    for (std::uint32_t k = 0; k < colour.channels; ++k) {
+        const transport::SegmentView segment = shard.segment(change.column, k);
+        if (segment.empty()) {
+            continue;
+        }
+        const float step = transport.step(change.column, k);
+        ColourWeights weights;
+        for (std::size_t c = 0; c < kColours; ++c) {
+            weights[c] = step * colour.matrix[c][k] * change.amount[c];
+        }
+        accumulate_segment(segment, shard.block_count(), weights, sums);
+    }
+}
+
+double energy(std::span<const float> values) {
+    double sum = 0;
+    for (const float value : values) {
+        sum += double{value} * double{value};
+    }
+    return sum;
+}
+
+}  // namespace
+
+double BandImages::Drift::error() const {
+    return std::numeric_limits<float>::epsilon() / 2 * largest_norm * std::sqrt(updates);
+}
+
+BandImages::BandImages(const Scene& scene)
+    : scene_(&scene),
+      bands_(scene.band_count(), std::vector<float>(scene.sum_count())),
+      total_(scene.sum_count()),
+      drift_(scene.band_count()),
+      energies_(scene.transport().shards().size() * scene.band_count()) {}
+
+std::span<float> BandImages::part(std::vector<float>& image, std::size_t shard) const {
+    const transport::ShardReader& reader = scene_->transport().shards()[shard];
+    return std::span(image).subspan(reader.first_block() * kSumsPerBlock,
+                                    reader.block_count() * kSumsPerBlock);
+}
+
+void BandImages::update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes) {
+    if (bands_to_clear == 0 && changes.empty()) {
+        return;
+    }
+    tbb::parallel_for(std::size_t{0}, scene_->transport().shards().size(),
+                      [&](std::size_t shard) { update_shard(shard, bands_to_clear, changes); });
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        const bool cleared = ((bands_to_clear >> band) & 1U) != 0;
+        if (cleared || !changes_of_band(changes, scene_->bands(), band).empty()) {
+            record_drift(band, cleared);
+        }
+    }
+}
+
+void BandImages::rebuild(std::size_t first_shard,
+                         std::size_t last_shard,
+                         std::span<const ColumnChange> columns) {
+    const std::uint32_t all_bands = (1U << bands_.size()) - 1;
+    tbb::parallel_for(first_shard, last_shard,
+                      [&](std::size_t shard) { update_shard(shard, all_bands, columns); });
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        record_drift(band, true);
+    }
+}
+
+void BandImages::update_shard(std::size_t shard,
+                              std::uint32_t bands_to_clear,
+                              std::span<const ColumnChange> changes) {
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        const bool clear = ((bands_to_clear >> band) & 1U) != 0;
+        const auto of_band = changes_of_band(changes, scene_->bands(), band);
+        if (clear || !of_band.empty()) {
+            update_band(shard, band, clear, of_band);
+        }
+    }
+    if (bands_to_clear != 0) {
+        sum_bands(shard);
+    }
+}
+
+void BandImages::update_band(std::size_t shard,
+                             std::uint32_t band,
+                             bool clear,
+                             std::span<const ColumnChange> changes) {
+    alignas(64) thread_local ShardSums storage;
+    const std::span<float> image = part(bands_[band], shard);
+    const std::span<float> difference = std::span(storage).first(image.size());
+    std::fill(difference.begin(), difference.end(), 0.0F);
+    const transport::Transport& transport = scene_->transport();
+    for (const ColumnChange& change : changes) {
+        add_column(transport, transport.shards()[shard], change, difference.data());
+    }
+    if (clear) {
+        std::copy(difference.begin(), difference.end(), image.begin());
+    } else {
+        const std::span<float> total = part(total_, shard);
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            image[i] += difference[i];
+            total[i] += difference[i];
+        }
+    }
+    energies_[shard * bands_.size() + band] = energy(image);
+}
+
+void BandImages::sum_bands(std::size_t shard) {
+    const std::span<float> total = part(total_, shard);
+    std::copy_n(part(bands_[0], shard).begin(), total.size(), total.begin());
+    for (std::size_t band = 1; band < bands_.size(); ++band) {
+        const std::span<const float> image = part(bands_[band], shard);
+        for (std::size_t i = 0; i < total.size(); ++i) {
+            total[i] += image[i];
+        }
+    }
+}
+
+void BandImages::record_drift(std::uint32_t band, bool cleared) {
+    double squared_norm = 0;
+    for (std::size_t i = band; i < energies_.size(); i += bands_.size()) {
+        squared_norm += energies_[i];
+    }
+    Drift& drift = drift_[band];
+    drift = cleared ? Drift{} : drift;
+    drift.largest_norm = std::max(drift.largest_norm, std::sqrt(squared_norm));
+    drift.updates += 1;
+}
+
+double BandImages::rounding_error() const {
+    double sum = 0;
+    for (const Drift& drift : drift_) {
+        sum += drift.error() * drift.error();
+    }
+    return std::sqrt(sum);
+}
+
+std::uint32_t BandImages::most_drifted_band() const {
+    const auto most =
+        std::max_element(drift_.begin(), drift_.end(),
+                         [](const Drift& a, const Drift& b) { return a.error() < b.error(); });
+    return static_cast<std::uint32_t>(most - drift_.begin());
+}
+
+}  // namespace relume::engine

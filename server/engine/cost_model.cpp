@@ -1,0 +1,34 @@
+#include "server/engine/cost_model.h"
+
+#include <algorithm>
+
+namespace relume::engine {
+namespace {
+
+constexpr double kNewest = 0.2;  // weight of the newest measurement
+
+double blend(double old, double newest) {
+    return old + kNewest * (newest - old);
+}
+
+}  // namespace
+
+void CostModel::record_columns(std::uint64_t bytes, double milliseconds) {
+    // Fewer bytes than this are all overhead and tell nothing of the rate.
+    constexpr std::uint64_t kTellingBytes = 64 * 1024;
+    if (bytes >= kTellingBytes) {
+        nanoseconds_per_byte_ =
+            blend(nanoseconds_per_byte_, milliseconds * 1e6 / static_cast<double>(bytes));
+    }
+}
+
+void CostModel::record_overhead(double milliseconds) {
+    overhead_milliseconds_ = blend(overhead_milliseconds_, milliseconds);
+}
+
+std::uint64_t CostModel::bytes_within(double milliseconds) const {
+    const double for_columns = std::max(0.0, milliseconds - overhead_milliseconds_);
+    return static_cast<std::uint64_t>(for_columns * 1e6 / nanoseconds_per_byte_);
+}
+
+}  // namespace relume::engine

@@ -1,0 +1,200 @@
+#include "server/engine/session.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+namespace relume::engine {
+namespace {
+
+using transport::kBlockSize;
+using transport::kColours;
+using transport::kTileSide;
+
+// Rounding may leave at most this much of the image's norm before the drifted band is made
+// anew.
+constexpr double kLargestDrift = 1e-5;
+// At rest the full product begins at once when it takes no longer than so many images.
+constexpr std::uint64_t kImagesForFullProduct = 4;
+
+class Stopwatch {
+  public:
+    [[nodiscard]] double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+Session::Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy)
+    : scene_(std::move(scene)),
+      strategy_(strategy),
+      lighting_(*scene_),
+      images_(*scene_),
+      error_(*scene_),
+      full_product_(*scene_) {}
+
+void Session::set_lighting(std::span<const float> coefficients) {
+    lighting_.set_target(coefficients);
+    full_product_.abandon();
+    lighting_is_new_ = true;
+    exact_ = false;
+}
+
+double Session::stated_error() const {
+    return exact_ ? 0 : error_.relative_l2();
+}
+
+bool Session::at_rest(const wire::Budget& budget) const {
+    return exact_ || (!lighting_is_new_ && budget.target_error > 0 &&
+                      error_.relative_l2() <= budget.target_error);
+}
+
+StepReport Session::advance(const wire::Budget& budget) {
+    StepReport report;
+    if (!at_rest(budget)) {
+        const bool rests = !lighting_is_new_;
+        if (lighting_is_new_) {
+            begin_new_lighting(report);
+        }
+        if (rests && full_product_is_next(budget)) {
+            advance_full_product(budget, report);
+        } else {
+            advance_incrementally(budget, report);
+        }
+    }
+    report.remaining = exact_ ? 0 : remaining_;
+    report.exact = exact_;
+    report.stated_error = stated_error();
+    return report;
+}
+
+void Session::begin_new_lighting(StepReport& report) {
+    const Stopwatch stopwatch;
+    lighting_is_new_ = false;
+    error_.set_target(lighting_.target());
+    if (strategy_.method == wire::Method::pbi) {
+        report.bands_reset = lighting_.bands_to_reset();
+    } else if (strategy_.method == wire::Method::nwa) {
+        // Every image of the non-linear approximation starts from nothing [Ng03 §4].
+        report.bands_reset = (1U << scene_->band_count()) - 1;
+    }
+    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
+        if (((report.bands_reset >> band) & 1U) != 0) {
+            lighting_.reset_band(band);
+        }
+    }
+    if (report.bands_reset != 0) {
+        error_.set_approximation(lighting_.approximation());
+    }
+    cost_.record_overhead(stopwatch.milliseconds());
+}
+
+SelectionBudget Session::selection_budget(const wire::Budget& budget) const {
+    if (budget.coefficients) {
+        return {.columns = *budget.coefficients, .bytes = scene_->transport().total_bytes()};
+    }
+    return {.columns = static_cast<std::uint32_t>(scene_->coefficient_count()),
+            .bytes = cost_.bytes_within(budget.milliseconds.value_or(0))};
+}
+
+void Session::advance_incrementally(const wire::Budget& budget, StepReport& report) {
+    selection_.choose(*scene_, lighting_, scene_->weights(strategy_.priority),
+                      selection_budget(budget));
+    const auto changes = selection_.changes();
+    const Stopwatch stopwatch;
+    images_.update(report.bands_reset, changes);
+    cost_.record_columns(selection_.chosen_bytes(), stopwatch.milliseconds());
+    for (const ColumnChange& change : changes) {
+        lighting_.apply(change.column);
+    }
+    error_.change_approximation(changes);
+    remaining_ = selection_.differing_columns() - static_cast<std::uint32_t>(changes.size());
+    report.applied = static_cast<std::uint32_t>(changes.size());
+    report.bytes_touched += selection_.chosen_bytes();
+    report.image_changed = report.bands_reset != 0 || !changes.empty();
+    remove_drift(report);
+}
+
+void Session::remove_drift(StepReport& report) {
+    if (images_.rounding_error() <= kLargestDrift * error_.shown_norm()) {
+        return;
+    }
+    const std::uint32_t band = images_.most_drifted_band();
+    std::vector<ColumnChange> all;
+    gather_columns(*scene_, lighting_.approximation(), all);
+    const auto columns = changes_of_band(all, scene_->bands(), band);
+    images_.update(1U << band, columns);
+    for (const ColumnChange& column : columns) {
+        report.bytes_touched += scene_->transport().column_bytes(column.column);
+    }
+}
+
+std::uint64_t Session::bytes_per_image(const wire::Budget& budget) const {
+    if (budget.coefficients) {
+        return scene_->transport().total_bytes() / scene_->coefficient_count() *
+               *budget.coefficients;
+    }
+    return cost_.bytes_within(budget.milliseconds.value_or(0));
+}
+
+bool Session::full_product_is_next(const wire::Budget& budget) const {
+    if (full_product_.running() || remaining_ == 0) {
+        return true;
+    }
+    return scene_->transport().total_bytes() <= kImagesForFullProduct * bytes_per_image(budget);
+}
+
+void Session::advance_full_product(const wire::Budget& budget, StepReport& report) {
+    if (!full_product_.running()) {
+        full_product_.start(lighting_.target());
+    }
+    const Stopwatch stopwatch;
+    const std::uint64_t bytes = full_product_.advance(bytes_per_image(budget));
+    cost_.record_columns(bytes, stopwatch.milliseconds());
+    report.bytes_touched += bytes;
+    if (full_product_.running()) {
+        return;
+    }
+    full_product_.exchange(images_);
+    report.applied = remaining_;
+    remaining_ = 0;
+    lighting_.apply_all();
+    error_.approximation_is_target();
+    exact_ = true;
+    report.image_changed = true;
+}
+
+void Session::write_image(std::span<float> rgb) const {
+    const transport::TileGrid& image = scene_->image();
+    const std::size_t expected = std::size_t{kColours} * image.width * image.height;
+    if (rgb.size() != expected) {
+        throw std::invalid_argument(
+            fmt::format("image buffer has {} values, expected {}", rgb.size(), expected));
+    }
+    const std::span<const float> sums = images_.total();
+    const std::span<const float> tint = scene_->transport().tint();
+    tbb::parallel_for(std::uint32_t{0}, image.tiles_y(), [&](std::uint32_t tile_y) {
+        const std::uint32_t last_row = std::min(image.height, (tile_y + 1) * kTileSide);
+        for (std::uint32_t y = tile_y * kTileSide; y < last_row; ++y) {
+            float* out = &rgb[std::size_t{kColours} * image.width * y];
+            for (std::uint32_t x = 0; x < image.width; ++x) {
+                const auto [block, slot] = image.receiver_from_pixel(x, y);
+                const std::size_t first = std::size_t{block} * kColours * kBlockSize + slot;
+                for (std::size_t c = 0; c < kColours; ++c) {
+                    const std::size_t i = first + c * kBlockSize;
+                    *out++ = sums[i] * tint[i];
+                }
+            }
+        }
+    });
+}
+
+}  // namespace relume::engine

@@ -1,0 +1,79 @@
+#include "server/engine/error_estimate.h"
+
+#include "tests/support/random_lighting.h"
+#include "tests/unit/engine/engine_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace relume::engine {
+namespace {
+
+// ‖tint·T·lighting‖ from the dense product.
+double true_norm(const TinyScene& tiny, const std::vector<float>& lighting) {
+    const auto sums = test::dense_product(tiny.transport(), lighting);
+    const auto tint = tiny.transport().tint();
+    double squared = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        squared += std::pow(sums[i] * double{tint[i]}, 2);
+    }
+    return std::sqrt(squared);
+}
+
+TEST(ErrorEstimate, IsNearTheTrueErrorForUnseenLighting) {
+    const TinyScene tiny({.width = 64, .height = 64, .channels = 3});
+    ErrorEstimate estimate(*tiny.scene());
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        const auto target = test::random_lighting(8, seed);
+        auto approximation = target;
+        auto difference = std::vector<float>(target.size());
+        // What an incremental method leaves: many small differences.
+        for (std::size_t i = seed % 7; i < target.size(); i += 7) {
+            approximation[i] = 0;
+            difference[i] = target[i];
+        }
+        estimate.set_target(target);
+        estimate.set_approximation(approximation);
+        const double truth = true_norm(tiny, difference) / true_norm(tiny, target);
+        EXPECT_NEAR(estimate.relative_l2() / truth, 1, 0.25) << "seed " << seed;
+    }
+}
+
+TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
+    const TinyScene tiny;
+    const Scene& scene = *tiny.scene();
+    const auto target = test::random_lighting(8, 1);
+    ErrorEstimate changed(scene);
+    ErrorEstimate anew(scene);
+    changed.set_target(target);
+    anew.set_target(target);
+    std::vector<float> approximation(target.size());
+    for (std::size_t j = 0; j < scene.coefficient_count(); j += 3) {
+        ColumnChange change{.column = static_cast<std::uint32_t>(j)};
+        for (std::size_t c = 0; c < transport::kColours; ++c) {
+            const std::size_t i = c * scene.coefficient_count() + j;
+            change.amount[c] = target[i];
+            approximation[i] = target[i];
+        }
+        changed.change_approximation({&change, 1});
+    }
+    anew.set_approximation(approximation);
+    EXPECT_NEAR(changed.relative_l2(), anew.relative_l2(), 1e-5 * anew.relative_l2());
+}
+
+TEST(ErrorEstimate, KnowsNothingAndBlack) {
+    const TinyScene tiny;
+    ErrorEstimate estimate(*tiny.scene());
+    EXPECT_EQ(estimate.relative_l2(), 0) << "black shown, black wanted";
+    const auto light = test::random_lighting(8, 2);
+    estimate.set_target(light);
+    EXPECT_EQ(estimate.relative_l2(), 1) << "nothing shown yet";
+    estimate.approximation_is_target();
+    EXPECT_EQ(estimate.relative_l2(), 0);
+    estimate.set_target(std::vector<float>(light.size()));
+    EXPECT_EQ(estimate.relative_l2(), 1) << "light shown, black wanted";
+}
+
+}  // namespace
+}  // namespace relume::engine
