@@ -103,7 +103,8 @@ void add_vase(MeshBuilder& glaze) {
     // Belly, neck and flared lip as one smooth curve, then back down inside.
     const auto radius = [](float t) {
         constexpr float kPi = std::numbers::pi_v<float>;
-        const float belly = 0.062F * std::pow(std::sin(kPi * std::pow(t, 0.75F)), 1.2F);
+        const float belly =
+            0.062F * std::pow(std::max(0.0F, std::sin(kPi * std::pow(t, 0.75F))), 1.2F);
         const float lip = 0.024F * std::pow(t, 7.0F);
         return 0.037F * (1.0F - t) + 0.017F * t + belly * (1.0F - 0.25F * t) + lip;
     };

@@ -164,9 +164,9 @@ Scene build_table() {
     add_crockery(scene);
     scene.camera = {.name = "standing",
                     .eye = {1.75F, 1.85F, 2.35F},
-                    .look_at = {0.0F, 0.6F, 0.0F},
+                    .look_at = {0.06F, 0.53F, 0.04F},
                     .up = {0, 1, 0},
-                    .vertical_fov_degrees = 35};
+                    .vertical_fov_degrees = 37.5F};
     finish_scene(scene);
     return scene;
 }

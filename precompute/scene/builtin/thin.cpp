@@ -18,7 +18,7 @@ Mesh knot() {
     constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
     const auto centre = [](float t) {
         const float ring = 0.52F + 0.24F * std::cos(3.0F * t);
-        return Imath::V3f(ring * std::cos(2.0F * t), 0.62F + 0.34F * std::sin(3.0F * t),
+        return Imath::V3f(ring * std::cos(2.0F * t), 0.5F + 0.34F * std::sin(3.0F * t),
                           ring * std::sin(2.0F * t));
     };
     MeshBuilder builder("knot", gold);
@@ -30,7 +30,7 @@ Mesh knot() {
                          const Imath::V3f along =
                              (centre(t + 1e-2F) - centre(t - 1e-2F)).normalized();
                          // A frame that closes by itself: away from the knot's centre.
-                         const Imath::V3f out = c - Imath::V3f(0, 0.62F, 0);
+                         const Imath::V3f out = c - Imath::V3f(0, 0.5F, 0);
                          const Imath::V3f across = (out - along * out.dot(along)).normalized();
                          const Imath::V3f side = along.cross(across);
                          return c + (across * std::cos(phi) + side * std::sin(phi)) * 0.155F;
@@ -39,10 +39,10 @@ Mesh knot() {
 }
 
 Mesh grille() {
-    constexpr float kHeight = 1.75F;
-    constexpr float kReach = 1.15F;
+    constexpr float kHeight = 1.5F;
+    constexpr float kReach = 1.3F;
     constexpr float kRadius = 0.009F;
-    constexpr int kBars = 11;
+    constexpr int kBars = 14;
     MeshBuilder builder("grille", iron);
     for (int i = -kBars; i <= kBars; ++i) {
         const float x = kReach * static_cast<float>(i) / kBars;
@@ -85,10 +85,10 @@ Scene build_thin() {
     scene.meshes.push_back(knot());
     scene.meshes.push_back(grille());
     scene.camera = {.name = "front",
-                    .eye = {1.9F, 2.35F, 3.6F},
-                    .look_at = {0, 0.68F, 0},
+                    .eye = {1.9F, 2.7F, 3.7F},
+                    .look_at = {0, 0.62F, 0},
                     .up = {0, 1, 0},
-                    .vertical_fov_degrees = 36};
+                    .vertical_fov_degrees = 40};
     finish_scene(scene);
     return scene;
 }

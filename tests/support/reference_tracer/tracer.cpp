@@ -1,0 +1,101 @@
+#include "tests/support/reference_tracer/tracer.h"
+
+#include "precompute/scene/camera.h"
+#include "tests/support/reference_tracer/geometry.h"
+#include "tests/support/reference_tracer/random.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace relume::reference {
+namespace {
+
+using Imath::V3d;
+
+// [Veach97 §9.2.4] with β = 2.
+double power_heuristic(double mine, double other) {
+    const double m2 = mine * mine;
+    return m2 / (m2 + other * other);
+}
+
+// The light that leaves the first surface along the ray, over all its scattering orders.
+V3d traced_radiance(const Geometry& geometry,
+                    const Sky& sky,
+                    std::uint32_t bounces,
+                    V3d origin,
+                    V3d direction,
+                    Random& random) {
+    V3d radiance(0, 0, 0);
+    V3d throughput(1, 1, 1);
+    for (std::uint32_t vertex = 0; vertex <= bounces; ++vertex) {
+        const auto surface = geometry.surface(origin, direction);
+        if (!surface)
+            break;
+        const Reflection& reflection = surface->reflection;
+        const V3d wo = -direction;
+        const auto reflected = [&](const V3d& wi) {
+            const double cosine = wi.dot(reflection.normal);
+            const bool is_lit = cosine > 0 && wi.dot(surface->face_normal) > 0;
+            return is_lit ? reflection.value(wi, wo) * cosine : V3d(0, 0, 0);
+        };
+
+        const SkySample light = sky.sampled(random);
+        const V3d from_light = reflected(light.direction);
+        if (from_light.length2() > 0 &&
+            geometry.sees_sky(geometry.origin_beside(*surface, light.direction),
+                              light.direction)) {
+            const double weight =
+                power_heuristic(light.density, reflection.density(light.direction, wo));
+            radiance += throughput * from_light * light.radiance * (weight / light.density);
+        }
+
+        const V3d wi = reflection.sampled(wo, random);
+        const double density = reflection.density(wi, wo);
+        const V3d onward = reflected(wi);
+        if (density <= 0 || onward.length2() == 0)
+            break;
+        throughput *= onward / density;
+        origin = geometry.origin_beside(*surface, wi);
+        direction = wi;
+        if (geometry.sees_sky(origin, direction)) {
+            const double weight = power_heuristic(density, sky.density(direction));
+            radiance += throughput * sky.radiance(direction) * weight;
+            break;
+        }
+    }
+    return radiance;
+}
+
+}  // namespace
+
+TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions& options) {
+    const Geometry geometry(scene);
+    const scene::Camera camera(scene.camera, options.width, options.height);
+    const std::size_t pixels = std::size_t{options.width} * options.height;
+    TracedImage image{options.width, options.height, std::vector<V3d>(pixels),
+                      std::vector<V3d>(pixels)};
+    tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
+        Random random(options.seed * 0x100000001b3U + pixel * 0x9e3779b1U + 17);
+        const auto x = static_cast<double>(pixel % options.width);
+        const auto y = static_cast<double>(pixel / options.width);
+        V3d mean(0, 0, 0);
+        V3d scatter(0, 0, 0);  // Welford's sum of squared deviations
+        for (std::uint32_t i = 1; i <= options.samples; ++i) {
+            const Imath::V3f direction =
+                camera.direction_from_pixel(static_cast<float>(x + random.uniform()),
+                                            static_cast<float>(y + random.uniform()));
+            const V3d value = traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
+                                              V3d(direction).normalized(), random);
+            const V3d step = value - mean;
+            mean += step / static_cast<double>(i);
+            scatter += step * (value - mean);
+        }
+        const double n = options.samples;
+        image.mean[pixel] = mean;
+        image.variance[pixel] = scatter / (n * (n - 1.0));
+    });
+    return image;
+}
+
+}  // namespace relume::reference

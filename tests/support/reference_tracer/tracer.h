@@ -1,0 +1,36 @@
+// Radiance per pixel by path tracing, with the variance of the answer.
+#pragma once
+
+#include "precompute/scene/scene.h"
+#include "tests/support/reference_tracer/sky.h"
+
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace relume::reference {
+
+struct TraceOptions {
+    std::uint32_t width = 32;
+    std::uint32_t height = 32;
+    std::uint32_t samples = 256;  // paths per pixel, at least two
+    std::uint32_t bounces = 0;    // scattering events after the first; 0: direct light only
+    std::uint64_t seed = 1;
+};
+
+// Row-major from the top left. A pixel is the mean over its square of the light that the scene
+// reflects there; where the square sees past the scene it counts as black, as in a picture
+// premultiplied by its coverage.
+struct TracedImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<Imath::V3d> mean;
+    std::vector<Imath::V3d> variance;  // of the mean
+};
+
+[[nodiscard]] TracedImage trace(const scene::Scene& scene,
+                                const Sky& sky,
+                                const TraceOptions& options);
+
+}  // namespace relume::reference
