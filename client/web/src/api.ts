@@ -1,0 +1,89 @@
+/** The server's HTTP side [protocol/README.md §3]. */
+import { isObject } from "./wire/merge_patch";
+import { refusalFromJson, type SceneSummary } from "./wire/message";
+import type { Json, JsonObject } from "./wire/state";
+
+export interface SceneEntry extends SceneSummary {
+    bytes: number;
+}
+
+export interface EnvironmentEntry {
+    name: string;
+    kind: "file" | "procedural" | "upload";
+    width: number;
+    height: number;
+}
+
+export interface UploadResult {
+    name: string;
+    width: number;
+    height: number;
+    projection: string;
+    warnings: string[];
+}
+
+/** A refusal by the server, or a server that cannot be reached, in words for people. */
+export class ApiError extends Error {
+    override readonly name = "ApiError";
+
+    constructor(
+        message: string,
+        readonly found?: string,
+        readonly expected?: string,
+    ) {
+        super(message);
+    }
+}
+
+export class Api {
+    constructor(private readonly server: string) {}
+
+    async scenes(): Promise<SceneEntry[]> {
+        const json = await this.request("/api/scenes");
+        return json["scenes"] as unknown as SceneEntry[];
+    }
+
+    async environments(): Promise<EnvironmentEntry[]> {
+        const json = await this.request("/api/environments");
+        return json["environments"] as unknown as EnvironmentEntry[];
+    }
+
+    thumbnailAddress(scene: string): string {
+        return `${this.server}/api/scenes/${encodeURIComponent(scene)}/thumbnail.png`;
+    }
+
+    previewAddress(environment: string): string {
+        return `${this.server}/api/environments/${encodeURIComponent(environment)}/preview.jpg`;
+    }
+
+    async upload(name: string, file: Blob): Promise<UploadResult> {
+        const json = await this.request(`/api/environments?name=${encodeURIComponent(name)}`, {
+            method: "POST",
+            headers: { "Content-Type": "application/octet-stream" },
+            body: file,
+        });
+        return json as unknown as UploadResult;
+    }
+
+    private async request(path: string, init?: RequestInit): Promise<JsonObject> {
+        let response: Response;
+        try {
+            response = await fetch(this.server + path, init);
+        } catch {
+            throw new ApiError("The server cannot be reached");
+        }
+        const text = await response.text();
+        let json: Json = null;
+        try {
+            json = JSON.parse(text) as Json;
+        } catch {
+            // An answer that is not JSON is told apart below, by its status.
+        }
+        if (response.ok && isObject(json)) return json;
+        if (isObject(json) && isObject(json["error"])) {
+            const refusal = refusalFromJson(json["error"]);
+            throw new ApiError(refusal.message, refusal.found, refusal.expected);
+        }
+        throw new ApiError(`The server answered ${response.status} ${response.statusText}`);
+    }
+}

@@ -1,0 +1,136 @@
+/** Controls of the environment as a whole: gain, tint, blend, rotation. */
+import { type FolderApi, Pane } from "tweakpane";
+import type { EnvironmentEntry } from "./api";
+import { hexFromLinear, linearFromHex } from "./colour";
+import { stopsText } from "./format";
+import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
+import type { Session } from "./session";
+import type { JsonObject, RoomState } from "./wire/state";
+
+/** At the lower end of its range the environment is off. */
+const kOffStops = -10;
+const kMaxStops = 10;
+const kNoBlend = "";
+
+export class EnvironmentPanel {
+    private readonly model = {
+        gain: 0,
+        tint: "#ffffff",
+        blend: kNoBlend,
+        amount: 0,
+        yaw: 0,
+        pitch: 0,
+        roll: 0,
+    };
+    private readonly pane: Pane;
+    private readonly blendFolder: FolderApi;
+    private syncing = false;
+    private frame = 0;
+    private names: string[] = [];
+
+    constructor(
+        root: HTMLElement,
+        private readonly session: Session,
+    ) {
+        this.pane = new Pane({ container: root });
+        this.addLightBindings();
+        this.blendFolder = this.pane.addFolder({ title: "Blend" });
+        this.addBlendBindings();
+        this.addRotationBindings();
+        session.stateChanged.listen(() => this.syncSoon());
+        session.statusChanged.listen(({ kind }) => {
+            this.pane.disabled = kind !== "open";
+        });
+    }
+
+    /** The environments that can be blended in. */
+    setEnvironments(entries: EnvironmentEntry[]): void {
+        const names = entries.map((entry) => entry.name);
+        if (names.join() === this.names.join()) return;
+        this.names = names;
+        for (const child of [...this.blendFolder.children]) child.dispose();
+        this.addBlendBindings();
+    }
+
+    private addLightBindings(): void {
+        const { pane, model } = this;
+        pane.addBinding(model, "gain", {
+            label: "gain, stops",
+            min: kOffStops,
+            max: kMaxStops,
+            step: 0.01,
+            format: (stops) => (stops <= kOffStops ? "off" : stopsText(stops)),
+        }).on("change", () => {
+            const gain = model.gain <= kOffStops ? 0 : 2 ** model.gain;
+            this.apply({ environment: { gain } });
+        });
+        pane.addBinding(model, "tint", { view: "color" }).on("change", () => {
+            this.apply({ environment: { tint: linearFromHex(model.tint) } });
+        });
+    }
+
+    private addBlendBindings(): void {
+        const { blendFolder, model } = this;
+        const options = [{ text: "none", value: kNoBlend }].concat(
+            this.names.map((name) => ({ text: name, value: name })),
+        );
+        blendFolder.addBinding(model, "blend", { label: "with", options }).on("change", () => {
+            if (model.blend === kNoBlend) this.apply({ blend: { name: null, amount: 0 } });
+            else this.apply({ blend: { name: model.blend } });
+        });
+        blendFolder
+            .addBinding(model, "amount", { min: 0, max: 1, step: 0.001 })
+            .on("change", () => this.apply({ blend: { amount: model.amount } }));
+    }
+
+    private addRotationBindings(): void {
+        const { model } = this;
+        const folder = this.pane.addFolder({ title: "Rotation" });
+        const rotate = (): void => {
+            this.apply({ rotation: { quaternion: quaternionFromEuler(model) } });
+        };
+        for (const [key, limit] of [
+            ["yaw", 180],
+            ["pitch", 90],
+            ["roll", 180],
+        ] as const) {
+            folder
+                .addBinding(model, key, {
+                    label: `${key} °`,
+                    min: -limit,
+                    max: limit,
+                    step: 0.1,
+                })
+                .on("change", rotate);
+        }
+        folder.addButton({ title: "Reset rotation" }).on("click", () => {
+            this.session.edit({ rotation: { quaternion: kIdentity } });
+        });
+    }
+
+    private apply(patch: JsonObject): void {
+        if (!this.syncing) this.session.edit(patch);
+    }
+
+    private syncSoon(): void {
+        if (this.frame !== 0) return;
+        this.frame = requestAnimationFrame(() => {
+            this.frame = 0;
+            const { state } = this.session;
+            if (state !== null) this.sync(state);
+        });
+    }
+
+    private sync(state: RoomState): void {
+        const { model } = this;
+        const { gain, tint } = state.environment;
+        model.gain = gain > 0 ? Math.log2(gain) : kOffStops;
+        model.tint = hexFromLinear(tint);
+        model.blend = state.blend.name ?? kNoBlend;
+        model.amount = state.blend.amount;
+        Object.assign(model, eulerFromQuaternion(state.rotation.quaternion));
+        this.syncing = true;
+        this.pane.refresh();
+        this.syncing = false;
+    }
+}

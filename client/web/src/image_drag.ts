@@ -1,0 +1,55 @@
+/**
+ * Turning the light by hand on the image: across turns it about the vertical; with Shift, up and
+ * down tips it; the wheel sets exposure, with Alt it rolls the light.
+ */
+import type { Exposure } from "./exposure";
+import { listenForDrag } from "./pointer_drag";
+import { turned } from "./rotation";
+import type { Session } from "./session";
+
+/** Half a turn across the picture. */
+const kDegreesPerWidth = 180;
+const kStopsPerNotch = 0.125;
+const kRollDegreesPerNotch = 3;
+const kPixelsPerNotch = 100;
+const kPixelsPerLine = 33;
+
+export type Turn = Parameters<typeof turned>[1];
+
+export function turnLight(session: Session, turn: Turn): void {
+    const quaternion = session.state?.rotation.quaternion;
+    if (quaternion === undefined) return;
+    session.edit({ rotation: { quaternion: turned(quaternion, turn) } });
+}
+
+/** Movement of the wheel in notches, down being positive. */
+export function notchesFromWheel(event: WheelEvent): number {
+    const delta = event.deltaY !== 0 ? event.deltaY : event.deltaX;
+    if (event.deltaMode === WheelEvent.DOM_DELTA_LINE)
+        return (delta * kPixelsPerLine) / kPixelsPerNotch;
+    return event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? delta : delta / kPixelsPerNotch;
+}
+
+export function listenOnImage(frame: HTMLElement, session: Session, exposure: Exposure): void {
+    listenForDrag(frame, {
+        start: () => session.status.kind === "open",
+        move: ({ dx, dy, event }) => {
+            const scale = kDegreesPerWidth / Math.max(1, frame.clientWidth);
+            turnLight(session, {
+                across: dx * scale,
+                ...(event.shiftKey ? { down: dy * scale } : {}),
+            });
+        },
+    });
+    frame.addEventListener(
+        "wheel",
+        (event) => {
+            if (event.ctrlKey) return; // the browser's zoom
+            event.preventDefault();
+            const notches = notchesFromWheel(event);
+            if (event.altKey) turnLight(session, { clockwise: notches * kRollDegreesPerNotch });
+            else exposure.step(-notches * kStopsPerNotch);
+        },
+        { passive: false },
+    );
+}

@@ -1,0 +1,101 @@
+/** Figures of the session: what shows, how good it is, how fast it came. */
+import { byId, setText } from "./dom";
+import type { EditTimer } from "./edit_timer";
+import type { ErrorPlot } from "./error_plot";
+import { bytesText, millisecondsText, percentText, thousandsText } from "./format";
+import { RateMeter } from "./rate_meter";
+import type { ImageHeader } from "./wire/image_header";
+
+export type MarkKind = "exact" | "settled" | "converging" | "moving" | "offline" | "waiting";
+
+const kMarkWords: { [kind in MarkKind]: string } = {
+    exact: "Exact",
+    settled: "Settled",
+    converging: "Converging",
+    moving: "Moving",
+    offline: "Offline",
+    waiting: "Waiting",
+};
+
+const kRefreshMilliseconds = 200;
+/** After so long without an image every rate is zero and the clock can stop. */
+const kQuietMilliseconds = 1500;
+
+export class Readouts {
+    private readonly mark = byId("mark");
+    private readonly markWords = byId("mark-words");
+    private readonly error = byId("figure-error");
+    private readonly pending = byId("figure-pending");
+    private readonly images = byId("figure-images");
+    private readonly editMedian = byId("figure-edit");
+    private readonly editLatest = byId("figure-edit-latest");
+    private readonly relight = byId("figure-relight");
+    private readonly encode = byId("figure-encode");
+    private readonly bytes = byId("figure-bytes");
+    private readonly revision = byId("figure-revision");
+    private readonly resolution = byId("figure-resolution");
+    private readonly rate = new RateMeter();
+    private received: ImageHeader | null = null;
+    private receivedAt = 0;
+    private clock = 0;
+
+    constructor(
+        private readonly timer: EditTimer,
+        private readonly plot: ErrorPlot,
+        private readonly markOf: () => MarkKind,
+    ) {}
+
+    frameReceived(header: ImageHeader, bytes: number, now: number): void {
+        this.rate.add(now, bytes);
+        this.received = header;
+        this.receivedAt = now;
+        this.plot.add(header, now);
+        this.refreshMark();
+        if (this.clock === 0) {
+            this.refresh();
+            this.clock = window.setInterval(() => this.refresh(), kRefreshMilliseconds);
+        }
+    }
+
+    clear(): void {
+        this.received = null;
+        this.plot.clear();
+        this.refresh();
+    }
+
+    refreshMark(): void {
+        const kind = this.markOf();
+        if (this.mark.dataset["kind"] !== kind) {
+            this.mark.dataset["kind"] = kind;
+            setText(this.markWords, kMarkWords[kind]);
+        }
+    }
+
+    private refresh(): void {
+        const now = performance.now();
+        this.refreshMark();
+        const { count, amount } = this.rate.read(now);
+        setText(this.images, String(count));
+        setText(this.bytes, bytesText(amount));
+        setText(this.editMedian, millisecondsText(this.timer.medianMilliseconds));
+        setText(this.editLatest, `last ${millisecondsText(this.timer.latestMilliseconds)}`);
+        const { received } = this;
+        if (received !== null) {
+            setText(this.error, percentText(received.statedError));
+            setText(
+                this.pending,
+                received.exact
+                    ? "all coefficients"
+                    : `${thousandsText(received.coefficientsPending)} to come`,
+            );
+            setText(this.relight, millisecondsText(received.relightMilliseconds));
+            setText(this.encode, `encode ${millisecondsText(received.encodeMilliseconds)}`);
+            setText(this.revision, thousandsText(received.revision));
+            setText(this.resolution, `${received.width} × ${received.height}`);
+        }
+        if (now - this.receivedAt > kQuietMilliseconds) {
+            clearInterval(this.clock);
+            this.clock = 0;
+        }
+    }
+}

@@ -1,0 +1,162 @@
+/** Text frames of the session, server to client [protocol/README.md §3.1]. */
+import { isObject } from "./merge_patch";
+import type { Json, JsonObject, RoomState } from "./state";
+
+export interface SceneSummary {
+    name: string;
+    width: number;
+    height: number;
+    face_resolution: number;
+}
+
+export interface Snapshot {
+    type: "snapshot";
+    protocol: number;
+    room: string;
+    scene: SceneSummary;
+    revision: number;
+    state: RoomState;
+    viewers: number;
+    limits: { [name: string]: number };
+}
+
+export interface Change {
+    type: "change";
+    revision: number;
+    patch: JsonObject;
+    /** Present only for the author of the edit. */
+    edit_id?: number;
+}
+
+export interface Refusal {
+    type: "error";
+    code: string;
+    message: string;
+    path?: string;
+    found?: string;
+    expected?: string;
+    edit_id?: number;
+}
+
+export interface Viewers {
+    type: "viewers";
+    count: number;
+}
+
+export type ServerMessage = Snapshot | Change | Refusal | Viewers;
+
+export const kProtocolVersion = 1;
+
+export class WireError extends Error {
+    override readonly name = "WireError";
+
+    constructor(
+        message: string,
+        /** The field at fault, where it is one. */
+        readonly field?: string,
+    ) {
+        super(message);
+    }
+}
+
+function numberAt(object: JsonObject, key: string): number {
+    const value = object[key];
+    if (typeof value !== "number") {
+        throw new WireError(`"${key}" is ${JSON.stringify(value)}, expected a number`);
+    }
+    return value;
+}
+
+function textAt(object: JsonObject, key: string): string {
+    const value = object[key];
+    if (typeof value !== "string") {
+        throw new WireError(`"${key}" is ${JSON.stringify(value)}, expected a string`);
+    }
+    return value;
+}
+
+function objectAt(object: JsonObject, key: string): JsonObject {
+    const value = object[key];
+    if (!isObject(value)) {
+        throw new WireError(`"${key}" is ${JSON.stringify(value)}, expected an object`);
+    }
+    return value;
+}
+
+/** `found` and `expected` may be any JSON value; people read them, so they become text. */
+function optionalText(value: Json | undefined): string | undefined {
+    if (value === undefined || value === null || value === "") return undefined;
+    return typeof value === "string" ? value : JSON.stringify(value);
+}
+
+export function refusalFromJson(json: JsonObject): Refusal {
+    const refusal: Refusal = {
+        type: "error",
+        code: textAt(json, "code"),
+        message: textAt(json, "message"),
+    };
+    const path = optionalText(json["path"]);
+    const found = optionalText(json["found"]);
+    const expected = optionalText(json["expected"]);
+    if (path !== undefined) refusal.path = path;
+    if (found !== undefined) refusal.found = found;
+    if (expected !== undefined) refusal.expected = expected;
+    if (typeof json["edit_id"] === "number") refusal.edit_id = json["edit_id"];
+    return refusal;
+}
+
+/**
+ * Parses a text frame; null for a type this version does not know, which a newer server may
+ * send. Throws WireError naming what was found where the frame is malformed.
+ */
+export function messageFromText(text: string): ServerMessage | null {
+    let json: Json;
+    try {
+        json = JSON.parse(text) as Json;
+    } catch {
+        throw new WireError(`text frame is not JSON: ${text.slice(0, 80)}`);
+    }
+    if (!isObject(json)) throw new WireError("text frame is not a JSON object");
+    switch (json["type"]) {
+        case "snapshot": {
+            const protocol = numberAt(json, "protocol");
+            if (protocol !== kProtocolVersion) {
+                throw new WireError(
+                    `server speaks protocol ${protocol}, this page ${kProtocolVersion}`,
+                );
+            }
+            const scene = objectAt(json, "scene");
+            return {
+                type: "snapshot",
+                protocol,
+                room: textAt(json, "room"),
+                scene: {
+                    name: textAt(scene, "name"),
+                    width: numberAt(scene, "width"),
+                    height: numberAt(scene, "height"),
+                    face_resolution: numberAt(scene, "face_resolution"),
+                },
+                revision: numberAt(json, "revision"),
+                state: objectAt(json, "state") as unknown as RoomState,
+                viewers: numberAt(json, "viewers"),
+                limits: objectAt(json, "limits") as { [name: string]: number },
+            };
+        }
+        case "change": {
+            const change: Change = {
+                type: "change",
+                revision: numberAt(json, "revision"),
+                patch: objectAt(json, "patch"),
+            };
+            if (typeof json["edit_id"] === "number") change.edit_id = json["edit_id"];
+            return change;
+        }
+        case "error":
+            return refusalFromJson(json);
+        case "viewers":
+            return { type: "viewers", count: numberAt(json, "count") };
+        default:
+            textAt(json, "type");
+            return null;
+    }
+}

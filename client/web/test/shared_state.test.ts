@@ -1,0 +1,87 @@
+import { describe, expect, it } from "vitest";
+import { SharedState } from "../src/shared_state";
+import type { Snapshot } from "../src/wire/message";
+import type { RoomState } from "../src/wire/state";
+
+function stateWith(gain: number): RoomState {
+    return {
+        environment: { name: "city", gain, tint: [1, 1, 1] },
+        blend: { amount: 0 },
+        rotation: { quaternion: [1, 0, 0, 0] },
+        lights: {},
+        background: { mode: "environment", colour: [0, 0, 0] },
+        strategy: { method: "pbi", priority: "transport" },
+        budget: { milliseconds: 8, target_error: 0 },
+        display: { exposure_stops: 0, tone: "filmic" },
+    };
+}
+
+function open(): SharedState {
+    const snapshot: Snapshot = {
+        type: "snapshot",
+        protocol: 1,
+        room: "r",
+        scene: { name: "s", width: 1, height: 1, face_resolution: 4 },
+        revision: 5,
+        state: stateWith(1),
+        viewers: 1,
+        limits: {},
+    };
+    return new SharedState(snapshot);
+}
+
+const gain = (value: number) => ({ environment: { gain: value } });
+
+describe("SharedState", () => {
+    it("shows an edit from the moment it is queued until long after it is confirmed", () => {
+        const shared = open();
+        shared.queue(gain(2));
+        expect(shared.state.environment.gain).toBe(2);
+        shared.expect(1, gain(2));
+        expect(shared.hasPending).toBe(true);
+        shared.confirm({ type: "change", revision: 6, patch: gain(2), edit_id: 1 });
+        expect(shared.state.environment.gain).toBe(2);
+        expect(shared.hasPending).toBe(false);
+        expect(shared.revision).toBe(6);
+    });
+
+    it("does not jump back when another's change arrives before its own", () => {
+        const shared = open();
+        shared.queue(gain(2));
+        shared.expect(1, gain(2));
+        shared.queue(gain(3));
+        shared.confirm({ type: "change", revision: 6, patch: gain(9) });
+        expect(shared.state.environment.gain).toBe(3);
+        shared.confirm({ type: "change", revision: 7, patch: gain(2), edit_id: 1 });
+        expect(shared.state.environment.gain).toBe(3);
+    });
+
+    it("takes a confirmation for all edits up to it", () => {
+        const shared = open();
+        for (const id of [1, 2, 3]) {
+            shared.queue(gain(id));
+            shared.expect(id, gain(id));
+        }
+        shared.confirm({ type: "change", revision: 8, patch: gain(2), edit_id: 2 });
+        expect(shared.hasPending).toBe(true);
+        expect(shared.state.environment.gain).toBe(3);
+    });
+
+    it("returns to the confirmed state when an edit is refused", () => {
+        const shared = open();
+        shared.queue(gain(-1));
+        shared.expect(1, gain(-1));
+        shared.refuse(1);
+        expect(shared.state).toEqual(stateWith(1));
+        expect(shared.hasPending).toBe(false);
+    });
+
+    it("tells changes of the light from changes of display", () => {
+        const shared = open();
+        const patch = { display: { exposure_stops: 1 } };
+        shared.confirm({ type: "change", revision: 6, patch });
+        expect([shared.revision, shared.lightRevision]).toEqual([6, 5]);
+        shared.confirm({ type: "change", revision: 7, patch: { ...patch, ...gain(2) } });
+        expect([shared.revision, shared.lightRevision]).toEqual([7, 7]);
+    });
+});
