@@ -11,10 +11,10 @@
 
 namespace relume::light {
 
-// For lighting cubemaps of one resolution n. Holds a finer cubemap (side m of a face, see the
-// README for how m and the low-pass come about), RGB and one unused value per texel, every face
-// with a border of one texel taken from its neighbours so that bilinear lookups run across
-// edges. Immutable once made; any number of threads may read it.
+// For lighting cubemaps of one resolution n. Holds a cubemap of side m = 4n, slightly
+// low-passed (README.md says why), every face with a border of one texel taken from its
+// neighbours so that bilinear lookups run across edges. 1.2 kB per n², which is 4.8 MB for n
+// = 64. Immutable once made; any number of threads may read it.
 class PrefilteredEnvironment {
   public:
     // Takes tens to hundreds of milliseconds, on all cores TBB has.
@@ -26,8 +26,9 @@ class PrefilteredEnvironment {
     [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
 
     [[nodiscard]] std::uint32_t inner_resolution() const { return inner_resolution_; }
-    // Row-major, 6·(m+2)² texels of 4 floats; texel (row, column) of a face lies at
-    // (face·(m+2) + row + 1)·(m+2) + column + 1.
+    // Row-major, RGB, 6·(m+2)² texels and one value more, so that four floats can be read from
+    // any texel; texel (row, column) of a face lies at (face·(m+2) + row + 1)·(m+2) + column
+    // + 1.
     [[nodiscard]] std::span<const float> padded_texels() const { return texels_; }
 
   private:

@@ -1,0 +1,201 @@
+#include "server/light/resample_kernel.h"
+
+#include <cstddef>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/light/resample_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace relume::light::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+namespace resample_row_detail {
+
+constexpr std::uint32_t kSamplesPerSide = 4;
+constexpr std::uint32_t kMaxSamples = basis::kMaxFaceResolution * kSamplesPerSide;
+
+// One line of samples: where each falls into the padded cubemap, how far between its texels.
+struct alignas(64) SampleLine {
+    std::int32_t offset[kMaxSamples];
+    float x_fraction[kMaxSamples];
+    float y_fraction[kMaxSamples];
+};
+
+// What each sample of a row of texels contributes to its texel; the same for all six faces.
+struct alignas(64) SampleWeights {
+    float weight[kSamplesPerSide][kMaxSamples];
+};
+
+float coordinate(std::uint32_t sample, std::uint32_t n) {
+    const float count = static_cast<float>(n * kSamplesPerSide);
+    return (static_cast<float>(sample) + 0.5F) * 2 / count - 1;
+}
+
+void make_weights(std::uint32_t n, std::uint32_t row, SampleWeights& weights) {
+    const hn::ScalableTag<float> d;
+    const std::uint32_t samples = n * kSamplesPerSide;
+    const auto step = hn::Set(d, 2 / static_cast<float>(samples));
+    const auto one = hn::Set(d, 1.0F);
+    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+        const float v = coordinate(row * kSamplesPerSide + line, n);
+        const auto base = hn::Set(d, 1 + v * v);
+        for (std::uint32_t s = 0; s < samples; s += static_cast<std::uint32_t>(hn::Lanes(d))) {
+            const auto index = hn::Iota(d, static_cast<float>(s) + 0.5F);
+            const auto u = hn::Sub(hn::Mul(index, step), one);
+            const auto length_sq = hn::Add(base, hn::Mul(u, u));
+            hn::Store(hn::Div(one, hn::Mul(length_sq, hn::Sqrt(length_sq))), d,
+                      &weights.weight[line][s]);
+        }
+    }
+    for (std::uint32_t column = 0; column < n; ++column) {
+        float sum = 0;
+        for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+            for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
+                sum += weights.weight[line][column * kSamplesPerSide + k];
+            }
+        }
+        const float scale = 1 / sum;
+        for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+            for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
+                weights.weight[line][column * kSamplesPerSide + k] *= scale;
+            }
+        }
+    }
+}
+
+// Rotates a line of sample directions and finds the face and place each pierces, in the
+// conventions of basis::face_point_from_direction.
+void locate(const ResampleJob& job, const RotatedFace& face, float v, SampleLine& line) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const std::uint32_t samples = job.face_resolution * kSamplesPerSide;
+    const Imath::V3f start = face.normal + v * face.v_axis;
+    const auto step = hn::Set(d, 2 / static_cast<float>(samples));
+    const auto zero = hn::Zero(d);
+    const auto one = hn::Set(d, 1.0F);
+    const auto half_m = hn::Set(d, static_cast<float>(job.inner_resolution) / 2);
+    const auto last = hn::Set(d, static_cast<float>(job.inner_resolution) + 0.5F);
+    const auto half = hn::Set(d, 0.5F);
+    const auto side = hn::Set(di, static_cast<std::int32_t>(job.inner_resolution) + 2);
+
+    for (std::uint32_t s = 0; s < samples; s += static_cast<std::uint32_t>(hn::Lanes(d))) {
+        const auto u = hn::Sub(hn::Mul(hn::Iota(d, static_cast<float>(s) + 0.5F), step), one);
+        const auto x = hn::Add(hn::Set(d, start.x), hn::Mul(u, hn::Set(d, face.u_axis.x)));
+        const auto y = hn::Add(hn::Set(d, start.y), hn::Mul(u, hn::Set(d, face.u_axis.y)));
+        const auto z = hn::Add(hn::Set(d, start.z), hn::Mul(u, hn::Set(d, face.u_axis.z)));
+        const auto ax = hn::Abs(x);
+        const auto ay = hn::Abs(y);
+        const auto az = hn::Abs(z);
+        const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
+        const auto on_y = hn::Ge(ay, az);  // where not on_x
+        const auto major_size = hn::Max(ax, hn::Max(ay, az));
+        const auto major = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
+        const auto negative = hn::Lt(major, zero);
+        const auto flip = [&](auto value) {
+            return hn::IfThenElse(negative, hn::Neg(value), value);
+        };
+        // +X (−z, −y), −X (z, −y); ±Y (x, ±z); +Z (x, −y), −Z (−x, −y).
+        const auto face_u =
+            hn::IfThenElse(on_x, hn::Neg(flip(z)), hn::IfThenElse(on_y, x, flip(x)));
+        const auto face_v =
+            hn::IfThenElse(on_x, hn::Neg(y), hn::IfThenElse(on_y, flip(z), hn::Neg(y)));
+        // Into texels of the padded face: the first inner texel's centre lies at 1.
+        const auto place = [&](auto c) {
+            const auto p = hn::Add(hn::Mul(hn::Add(hn::Div(c, major_size), one), half_m), half);
+            return hn::Min(hn::Max(p, half), last);
+        };
+        const auto px = place(face_u);
+        const auto py = place(face_v);
+        const auto ix = hn::ConvertTo(di, px);
+        const auto iy = hn::ConvertTo(di, py);
+        const auto face_index =
+            hn::Add(hn::IfThenElse(on_x, zero,
+                                   hn::IfThenElse(on_y, hn::Set(d, 2.0F), hn::Set(d, 4.0F))),
+                    hn::IfThenElse(negative, one, zero));
+        const auto row = hn::Add(hn::Mul(hn::ConvertTo(di, face_index), side), iy);
+        const auto texel = hn::Add(hn::Mul(row, side), ix);
+        hn::Store(hn::Add(hn::ShiftLeft<1>(texel), texel), di, &line.offset[s]);
+        hn::Store(hn::Sub(px, hn::ConvertTo(d, ix)), d, &line.x_fraction[s]);
+        hn::Store(hn::Sub(py, hn::ConvertTo(d, iy)), d, &line.y_fraction[s]);
+    }
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> bilinear(
+    D d4, const float* texel, std::size_t below, float fx, float fy) {
+    const auto x = hn::Set(d4, fx);
+    const auto y = hn::Set(d4, fy);
+    const auto a = hn::LoadU(d4, texel);
+    const auto b = hn::LoadU(d4, texel + 3);
+    const auto c = hn::LoadU(d4, texel + below);
+    const auto e = hn::LoadU(d4, texel + below + 3);
+    const auto upper = hn::Add(a, hn::Mul(hn::Sub(b, a), x));
+    const auto lower = hn::Add(c, hn::Mul(hn::Sub(e, c), x));
+    return hn::Add(upper, hn::Mul(hn::Sub(lower, upper), y));
+}
+
+void resample_face_row(const ResampleJob& job,
+                       std::uint32_t face,
+                       std::uint32_t row,
+                       const SampleWeights& weights) {
+    const std::uint32_t n = job.face_resolution;
+    SampleLine lines[kSamplesPerSide];
+    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+        locate(job, job.faces[face], coordinate(row * kSamplesPerSide + line, n), lines[line]);
+    }
+    // Three colours and a fourth value that is not used, at once where vectors are long enough.
+    const hn::CappedTag<float, 4> d4;
+    const std::size_t below = (std::size_t{job.inner_resolution} + 2) * 3;
+    const std::size_t plane = basis::texel_count(n);
+    float* out = job.out + (std::size_t{face} * n + row) * n;
+    for (std::uint32_t column = 0; column < n; ++column) {
+        alignas(16) float rgb[4];
+        for (std::size_t first = 0; first < 4; first += hn::Lanes(d4)) {
+            const float* texels = job.texels + first;
+            auto sum = hn::Zero(d4);
+            for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+                for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
+                    const std::uint32_t s = column * kSamplesPerSide + k;
+                    const auto value =
+                        bilinear(d4, texels + lines[line].offset[s], below,
+                                 lines[line].x_fraction[s], lines[line].y_fraction[s]);
+                    sum = hn::Add(sum, hn::Mul(value, hn::Set(d4, weights.weight[line][s])));
+                }
+            }
+            hn::Store(sum, d4, rgb + first);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = rgb[c] * job.scale[static_cast<int>(c)];
+            float& target = out[c * plane + column];
+            target = job.accumulate ? target + value : value;
+        }
+    }
+}
+
+}  // namespace resample_row_detail
+
+void resample_row(const ResampleJob& job, std::uint32_t row) {
+    resample_row_detail::SampleWeights weights;
+    resample_row_detail::make_weights(job.face_resolution, row, weights);
+    for (std::uint32_t face = 0; face < basis::kFaceCount; ++face) {
+        resample_row_detail::resample_face_row(job, face, row, weights);
+    }
+}
+
+}  // namespace relume::light::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace relume::light {
+
+HWY_EXPORT(resample_row);
+
+void resample_row(const ResampleJob& job, std::uint32_t row) {
+    HWY_DYNAMIC_DISPATCH(resample_row)(job, row);
+}
+
+}  // namespace relume::light
+#endif  // HWY_ONCE
