@@ -1,0 +1,159 @@
+// relume-decode: one image file from standard input, its texels to standard output, and nothing
+// else: started by sandboxed_decoder.cpp, in a sandbox before it reads the first byte.
+#include "server/light/decoder_reply.h"
+#include "server/light/environment_error.h"
+#include "server/light/environment_import.h"
+#include "server/light/sandbox.h"
+
+#include <CLI/CLI.hpp>
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace {
+
+using relume::light::ReplyHeader;
+using relume::light::ReplyStatus;
+
+struct Options {
+    std::string projection;
+    std::size_t max_texels = relume::light::kMaxMapTexels;
+    std::size_t max_bytes = 0;
+    relume::light::SandboxLimits sandbox;
+};
+
+void write_all(const void* data, std::size_t size) {
+    const auto* at = static_cast<const std::byte*>(data);
+    while (size > 0) {
+        const ssize_t written = write(STDOUT_FILENO, at, size);
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            _exit(EXIT_FAILURE);  // nobody listens any more
+        }
+        at += written;
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+void reply(ReplyHeader header, std::string text, std::span<const float> rgb) {
+    text.resize(std::min(text.size(), relume::light::kMaxReplyTextBytes));
+    header.text_bytes = static_cast<std::uint32_t>(text.size());
+    write_all(&header, sizeof header);
+    write_all(text.data(), text.size());
+    write_all(rgb.data(), rgb.size_bytes());
+}
+
+std::string line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text + '\n';
+}
+
+void refuse(const std::string& message, const std::string& found, const std::string& expected) {
+    reply({.status = ReplyStatus::refused}, line(message) + line(found) + line(expected), {});
+}
+
+std::vector<std::byte> read_input(std::size_t max_bytes) {
+    constexpr std::size_t kChunk = std::size_t{1} << 20;
+    std::vector<std::byte> bytes;
+    for (;;) {
+        const std::size_t filled = bytes.size();
+        bytes.resize(filled + kChunk);
+        const ssize_t count = read(STDIN_FILENO, bytes.data() + filled, kChunk);
+        if (count < 0 && errno != EINTR) {
+            throw std::system_error(errno, std::generic_category(), "reading the image");
+        }
+        bytes.resize(filled + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        if (bytes.size() > max_bytes) {
+            throw relume::light::EnvironmentError(
+                "image file is longer than " + std::to_string(max_bytes) + " bytes",
+                "more than " + std::to_string(max_bytes) + " bytes",
+                "at most " + std::to_string(max_bytes) + " bytes");
+        }
+        if (count == 0) {
+            return bytes;
+        }
+    }
+}
+
+// Libraries look up files, locales and the number of cores when they are first used. Let them
+// do so on an image of our own, while that is still allowed.
+void warm_up(const char* format) {
+    OIIO::Filesystem::IOVecOutput written;
+    OIIO::Filesystem::IOProxy* proxy = &written;
+    OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::FLOAT);
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    const float texels[6] = {1, 1, 1, 1, 1, 1};
+    if (!output || !output->open(format, spec) ||
+        !output->write_image(OIIO::TypeDesc::FLOAT, static_cast<const float*>(texels)) ||
+        !output->close()) {
+        throw std::runtime_error(std::string("OpenImageIO here cannot write ") + format);
+    }
+    (void)relume::light::import_image(std::as_bytes(std::span(written.buffer())));
+}
+
+void decode(const Options& options) {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
+    warm_up("openexr");
+    warm_up("hdr");
+    relume::light::enter_sandbox(options.sandbox);
+    try {
+        const std::vector<std::byte> bytes = read_input(options.max_bytes);
+        const relume::light::ImportedImage imported = relume::light::import_image(
+            bytes, relume::light::projection_from_string(options.projection),
+            options.max_texels);
+        std::string warnings;
+        for (const std::string& warning : imported.warnings) {
+            warnings += line(warning);
+        }
+        reply({.status = ReplyStatus::decoded,
+               .width = imported.image.width,
+               .height = imported.image.height,
+               .projection = static_cast<std::uint32_t>(imported.projection)},
+              warnings, imported.image.rgb);
+    } catch (const relume::light::EnvironmentError& e) {
+        refuse(e.what(), e.found(), e.expected());
+    } catch (const std::bad_alloc&) {
+        refuse("image needs more memory than decoding may use", "",
+               "at most " + std::to_string(options.sandbox.address_space_bytes) + " bytes");
+    } catch (const std::exception& e) {
+        refuse(std::string("image cannot be read: ") + e.what(), "", "");
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app{"Decodes one image in a sandbox. Part of relume-server; not for use by hand."};
+    app.add_option("--projection", options.projection, "empty: by shape");
+    app.add_option("--max-texels", options.max_texels)->required();
+    app.add_option("--max-bytes", options.max_bytes)->required();
+    app.add_option("--address-space-bytes", options.sandbox.address_space_bytes)->required();
+    app.add_option("--cpu-seconds", options.sandbox.cpu_seconds)->required();
+    CLI11_PARSE(app, argc, argv);
+    try {
+        decode(options);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "relume-decode: %s\n", e.what());
+        _exit(EXIT_FAILURE);
+    }
+    // Destructors of libraries might want system calls that are no longer allowed.
+    _exit(EXIT_SUCCESS);
+}
