@@ -1,0 +1,124 @@
+#include "client/cli/edit_options.h"
+
+#include "client/cli/client_error.h"
+#include "protocol/wire/errors.h"
+#include "protocol/wire/json_text.h"
+#include "protocol/wire/limits.h"
+#include "protocol/wire/session_patch.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+namespace relume::cli {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) {
+            return parts;
+        }
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::vector<double> numbers_from_text(std::string_view text,
+                                      std::size_t count,
+                                      std::string_view option,
+                                      std::string_view form) {
+    std::vector<double> numbers;
+    for (const std::string_view part : split(text, ',')) {
+        double number = 0;
+        const auto [end, error] =
+            std::from_chars(part.data(), part.data() + part.size(), number);
+        if (error != std::errc{} || end != part.data() + part.size()) {
+            numbers.clear();
+            break;
+        }
+        numbers.push_back(number);
+    }
+    if (numbers.size() != count) {
+        throw ClientError(fmt::format("{}: found \"{}\", expected {}", option, text, form));
+    }
+    return numbers;
+}
+
+void put_light(json& patch, std::string_view text) {
+    constexpr std::string_view kForm = "ID:X,Y,Z:RADIUS_DEGREES:R,G,B";
+    const std::vector<std::string_view> parts = split(text, ':');
+    if (parts.size() != 4) {
+        throw ClientError(fmt::format("--light: found \"{}\", expected {}", text, kForm));
+    }
+    patch["lights"][std::string(parts[0])] = {
+        {"direction", numbers_from_text(parts[1], 3, "--light", kForm)},
+        {"angular_radius_degrees", numbers_from_text(parts[2], 1, "--light", kForm)[0]},
+        {"radiance", numbers_from_text(parts[3], 3, "--light", kForm)}};
+}
+
+json patch_from_text(const std::string& text_or_file) {
+    std::string text = text_or_file;
+    std::string source = "--patch";
+    if (text.starts_with('@')) {
+        source = text.substr(1);
+        std::ifstream file(source, std::ios::binary);
+        if (!file) {
+            throw ClientError(source + ": cannot be read");
+        }
+        text.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    try {
+        json patch = wire::parse_json(text, wire::Limits{}.message_bytes);
+        if (!patch.is_object()) {
+            throw ClientError(source + ": expected a JSON object");
+        }
+        return patch;
+    } catch (const wire::WireError& error) {
+        throw ClientError(source + ": " + error.what());
+    }
+}
+
+}  // namespace
+
+json patch_from_options(const EditOptions& options, const std::string& environment) {
+    json patch = json::object();
+    if (!environment.empty()) {
+        patch["environment"]["name"] = environment;
+    }
+    if (!options.rotate.empty()) {
+        const std::vector<double> degrees =
+            numbers_from_text(options.rotate, 3, "--rotate", "YAW,PITCH,ROLL in degrees");
+        patch["rotation"] = {{"yaw_degrees", degrees[0]},
+                             {"pitch_degrees", degrees[1]},
+                             {"roll_degrees", degrees[2]}};
+    }
+    for (const std::string& light : options.lights) {
+        put_light(patch, light);
+    }
+    if (!options.method.empty()) {
+        patch["strategy"]["method"] = options.method;
+    }
+    if (!options.priority.empty()) {
+        patch["strategy"]["priority"] = options.priority;
+    }
+    if (options.budget_ms) {
+        patch["budget"]["milliseconds"] = *options.budget_ms;
+    }
+    if (options.coefficients) {
+        patch["budget"]["coefficients"] = *options.coefficients;
+    }
+    if (!options.patch.empty()) {
+        patch = wire::merge_patches(std::move(patch), patch_from_text(options.patch));
+    }
+    return patch;
+}
+
+}  // namespace relume::cli

@@ -1,0 +1,98 @@
+#include "client/cli/http_client.h"
+
+#include "client/cli/client_error.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/use_future.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <future>
+
+namespace relume::cli {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr int kHttp11 = 11;
+
+// Runs the context until the operation behind the future is done. Only asynchronous
+// operations of a Beast stream honour its timeout, so all of them are.
+template <typename T>
+T finish(asio::io_context& io, std::future<T> result) {
+    io.restart();
+    io.run();
+    return result.get();
+}
+
+HttpAnswer exchange(const Url& server,
+                    http::request<http::string_body> request,
+                    std::chrono::seconds timeout) {
+    const std::string what = fmt::format("{} http://{}{}", std::string(request.method_string()),
+                                         server.authority(), std::string(request.target()));
+    request.set(http::field::host, server.authority());
+    request.set(http::field::user_agent, "relume");
+    request.set(http::field::connection, "close");
+    try {
+        asio::io_context io;
+        asio::ip::tcp::resolver resolver(io);
+        const auto endpoints =
+            finish(io, resolver.async_resolve(server.host, server.port, asio::use_future));
+        beast::tcp_stream stream(io);
+        stream.expires_after(timeout);
+        finish(io, stream.async_connect(endpoints, asio::use_future));
+        finish(io, http::async_write(stream, request, asio::use_future));
+        beast::flat_buffer buffer;
+        http::response_parser<http::string_body> parser;
+        parser.body_limit(kMaxAnswerBytes);
+        finish(io, http::async_read(stream, buffer, parser, asio::use_future));
+        return {.status = parser.get().result_int(), .body = std::move(parser.get().body())};
+    } catch (const boost::system::system_error& error) {
+        throw ClientError(fmt::format("{}: {}", what, error.code().message()));
+    }
+}
+
+}  // namespace
+
+HttpAnswer http_get(const Url& server,
+                    const std::string& target,
+                    std::chrono::seconds timeout) {
+    return exchange(server, {http::verb::get, server.prefix + target, kHttp11}, timeout);
+}
+
+HttpAnswer http_post(const Url& server,
+                     const std::string& target,
+                     std::string body,
+                     std::chrono::seconds timeout) {
+    http::request<http::string_body> request{http::verb::post, server.prefix + target, kHttp11,
+                                             std::move(body)};
+    request.set(http::field::content_type, "application/octet-stream");
+    request.prepare_payload();
+    return exchange(server, std::move(request), timeout);
+}
+
+nlohmann::json json_from_answer(const HttpAnswer& answer, const std::string& request) {
+    const nlohmann::json body = nlohmann::json::parse(answer.body, nullptr, false);
+    if (answer.status >= 200 && answer.status < 300) {
+        if (body.is_discarded()) {
+            throw ClientError(fmt::format("{}: found a body that is not JSON", request));
+        }
+        return body;
+    }
+    std::string detail;
+    if (body.is_object() && body.contains("error") && body["error"].is_object()) {
+        const nlohmann::json& error = body["error"];
+        detail = fmt::format(": {} (found {}, expected {})", error.value("message", ""),
+                             error.value("found", "?"), error.value("expected", "?"));
+    }
+    throw ClientError(fmt::format("{}: found HTTP status {}, expected 2xx{}", request,
+                                  answer.status, detail));
+}
+
+}  // namespace relume::cli

@@ -1,0 +1,57 @@
+#include "client/cli/client_error.h"
+#include "client/cli/commands.h"
+#include "client/cli/load_test.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace relume::cli {
+namespace {
+
+struct LoadCommandOptions {
+    ServerOptions server;
+    LoadOptions load;
+};
+
+void test_load(const LoadCommandOptions& options) {
+    LoadOptions load = options.load;
+    load.server = url_from_text(options.server.url);
+    load.token = options.server.token;
+    const nlohmann::json result = run_load_test(load);
+    fmt::print("{}\n", result.dump());
+    if (!result.at("ok").get<bool>()) {
+        throw ClientError(
+            fmt::format("load: found errors {} and ended sessions {}, expected none",
+                        result.at("errors").dump(), result.at("ends").dump()));
+    }
+}
+
+}  // namespace
+
+void add_load_command(CLI::App& app) {
+    auto options = std::make_shared<LoadCommandOptions>();
+    CLI::App* command = app.add_subcommand(
+        "load", "Drag in many rooms at once; print latencies and throughput as JSON.");
+    add_server_options(*command, options->server);
+    LoadOptions& load = options->load;
+    command->add_option("--scene", load.scene, "scene name on the server")->required();
+    command->add_option("--sessions", load.dragging, "sessions that drag")
+        ->check(CLI::Range(std::size_t{0}, kMaxLoadSessions))
+        ->capture_default_str();
+    command->add_option("--idle", load.idle, "sessions that only watch")
+        ->check(CLI::Range(std::size_t{0}, kMaxLoadSessions))
+        ->capture_default_str();
+    command->add_option("--rate", load.rate_hz, "edits per second of each dragging session")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+    command->add_option("--seconds", load.seconds, "how long to drag")
+        ->check(CLI::Range(0.1, 86400.0))
+        ->capture_default_str();
+    command->add_option("--threads", load.threads, "threads for all sessions together")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{64}))
+        ->capture_default_str();
+    command->callback([options] { test_load(*options); });
+}
+
+}  // namespace relume::cli

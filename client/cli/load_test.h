@@ -1,0 +1,31 @@
+// Many sessions at once: some drag, the others sit and watch; each in a room of its own.
+#pragma once
+
+#include "client/cli/url.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace relume::cli {
+
+struct LoadOptions {
+    Url server;
+    std::string scene;
+    std::string token;
+    std::size_t dragging = 8;
+    std::size_t idle = 0;
+    double rate_hz = 30;  // edits per second of each dragging session
+    double seconds = 10;  // of dragging
+    std::size_t threads = 1;
+};
+
+inline constexpr std::size_t kMaxLoadSessions = 10'000;
+
+// Counts, images per second and edit-to-image spread over all dragging sessions; "errors"
+// counts refusals by code, "ends" the sessions that did not last, by reason. "ok" when there
+// are none.
+[[nodiscard]] nlohmann::json run_load_test(const LoadOptions& options);
+
+}  // namespace relume::cli

@@ -1,0 +1,143 @@
+#include "client/cli/client_error.h"
+#include "client/cli/commands.h"
+#include "client/cli/edit_options.h"
+#include "client/cli/environment_upload.h"
+#include "client/cli/image_file.h"
+#include "client/cli/settled_image.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace relume::cli {
+namespace {
+
+struct RenderOptions {
+    ServerOptions server;
+    std::string scene;
+    std::string room;
+    std::string environment;
+    std::string projection;
+    EditOptions edits;
+    bool until_exact = false;
+    std::optional<double> until_error;
+    double timeout_seconds = 120;
+    std::string output;
+    bool json = false;
+};
+
+nlohmann::json summary_of(const SettledImage& settled,
+                          const std::string& room,
+                          double seconds) {
+    const wire::ImageHeader& header = settled.header;
+    return {{"scene", settled.scene.name},
+            {"room", room},
+            {"width", header.width},
+            {"height", header.height},
+            {"revision", header.revision},
+            {"sequence", header.sequence},
+            {"relative_error", header.relative_error},
+            {"exact", header.exact},
+            {"edit_to_image_ms", settled.edit_to_image_ms
+                                     ? nlohmann::json(*settled.edit_to_image_ms)
+                                     : nlohmann::json()},
+            {"server_edit_to_image_ms", header.edit_to_image_ms},
+            {"relight_ms", header.relight_ms},
+            {"encode_ms", header.encode_ms},
+            {"coefficients_applied", header.coefficients_applied},
+            {"coefficients_remaining", header.coefficients_remaining},
+            {"bytes", header.payload_bytes},
+            {"seconds", seconds},
+            {"state", wire::to_json(settled.state)}};
+}
+
+void render(const RenderOptions& options) {
+    const Clock::time_point begin = Clock::now();
+    static_cast<void>(image_format_from_path(options.output));  // before any work is done
+    const Url server = url_from_text(options.server.url);
+    const bool is_private = options.room.empty();
+    if (is_private && options.scene.empty()) {
+        throw ClientError("render: found neither --scene nor --room, expected one of them");
+    }
+    const std::string environment =
+        options.environment.empty()
+            ? std::string()
+            : environment_on_server(server, options.environment, options.projection);
+    nlohmann::json patch = patch_from_options(options.edits, environment);
+    // A room settles where its target error lets it. One that is not ours stays as it is unless
+    // it is edited anyway.
+    if (is_private || !patch.empty()) {
+        patch["budget"]["target_error"] = options.until_error.value_or(0);
+    }
+    const SettledImageRequest request{
+        .session = {.server = server,
+                    .room = is_private ? random_room_name("render") : options.room,
+                    .scene = options.scene,
+                    .images = ImageChoice::settled,
+                    .token = options.server.token},
+        .patch = std::move(patch),
+        .until_error = options.until_error,
+        .timeout = std::chrono::milliseconds(
+            static_cast<std::int64_t>(options.timeout_seconds * 1000))};
+    const SettledImage settled = fetch_settled_image(request);
+    write_image_file(options.output, settled.image, settled.header, settled.state.display);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (options.json) {
+        fmt::print("{}\n", summary_of(settled, request.session.room, seconds).dump());
+    } else {
+        spdlog::info("{}: {}×{}, {} after {:.2f} s", options.output, settled.header.width,
+                     settled.header.height,
+                     settled.header.exact
+                         ? std::string("exact")
+                         : fmt::format("stated error {:.3g}", settled.header.relative_error),
+                     seconds);
+    }
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Relight a scene, wait until the image is good enough, and save it.");
+    add_server_options(*command, options->server);
+    command->add_option("--scene", options->scene, "scene name on the server");
+    command->add_option("--room", options->room,
+                        "room to join (default: a new one that nobody else sees)");
+    command->add_option("--environment", options->environment,
+                        "environment: a file to upload (.hdr, .exr) or a name on the server");
+    command->add_option("--projection", options->projection,
+                        "projection of the file (default: by its shape)");
+    command->add_option("--rotate", options->edits.rotate, "YAW,PITCH,ROLL in degrees");
+    command
+        ->add_option("--light", options->edits.lights,
+                     "round light ID:X,Y,Z:RADIUS_DEGREES:R,G,B; may be given several times")
+        ->take_all();
+    command->add_option("--patch", options->edits.patch,
+                        "further edits as a JSON merge patch, or @FILE with one");
+    command->add_option("--method", options->edits.method, "nwa, bi or pbi");
+    command->add_option("--priority", options->edits.priority, "area, none or transport");
+    auto* milliseconds = command->add_option("--budget-ms", options->edits.budget_ms,
+                                             "relighting time per image");
+    command->add_option("--coefficients", options->edits.coefficients, "coefficients per image")
+        ->excludes(milliseconds);
+    auto* exact = command->add_flag("--until-exact", options->until_exact,
+                                    "wait for exact (the default)");
+    command
+        ->add_option("--until-error", options->until_error,
+                     "wait for a stated relative L2 error of at most this")
+        ->check(CLI::Range(0.0, 1.0))
+        ->excludes(exact);
+    command->add_option("--timeout", options->timeout_seconds, "seconds to wait for the image")
+        ->check(CLI::Range(0.001, 86400.0))
+        ->capture_default_str();
+    command
+        ->add_option("-o,--output", options->output,
+                     ".exr, .hdr (linear) or .png, .jpg (display-referred)")
+        ->required();
+    command->add_flag("--json", options->json, "print one JSON line about the image");
+    command->callback([options] { render(*options); });
+}
+
+}  // namespace relume::cli

@@ -1,0 +1,115 @@
+#include "client/cli/client_error.h"
+#include "client/cli/commands.h"
+#include "client/cli/environment_upload.h"
+#include "client/cli/image_file.h"
+#include "client/cli/sequence_player.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace relume::cli {
+namespace {
+
+struct SequenceCommandOptions {
+    ServerOptions server;
+    std::string script;
+    std::string scene;
+    std::string room;
+    std::string environment;
+    std::string projection;
+    std::string folder;
+    std::optional<ImageFiles> files;
+    double rate_hz = 30;
+    std::string csv;
+    std::string json;
+};
+
+SequenceScript script_from_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw ClientError(path + ": cannot be read");
+    }
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    try {
+        return sequence_script_from_text(text);
+    } catch (const ClientError& error) {
+        throw ClientError(path + ": " + error.what());
+    }
+}
+
+void play(const SequenceCommandOptions& options) {
+    SequenceOptions sequence;
+    sequence.script = script_from_file(options.script);
+    const Url server = url_from_text(options.server.url);
+    if (!options.environment.empty()) {
+        sequence.script.start["environment"]["name"] =
+            environment_on_server(server, options.environment, options.projection);
+    }
+    sequence.session = {
+        .server = server,
+        .room = options.room.empty() ? random_room_name("sequence") : options.room,
+        .scene = options.scene.empty() ? sequence.script.scene : options.scene,
+        .images = ImageChoice::all,
+        .token = options.server.token};
+    if (options.room.empty() && sequence.session.scene.empty()) {
+        throw ClientError("sequence: found no scene, expected one in the script or by --scene");
+    }
+    sequence.rate_hz = options.rate_hz;
+    sequence.files =
+        options.folder.empty() ? ImageFiles::none : options.files.value_or(ImageFiles::jpeg);
+    sequence.folder = options.folder;
+    if (options.folder.empty() &&
+        options.files.value_or(ImageFiles::none) != ImageFiles::none) {
+        throw ClientError("sequence: found --images without a folder, expected -o");
+    }
+    if (!options.folder.empty()) {
+        std::filesystem::create_directories(options.folder);
+    }
+    const SequenceReport report = play_sequence(sequence);
+    if (!options.csv.empty()) {
+        write_file(options.csv, csv_from_report(report));
+    }
+    if (!options.json.empty()) {
+        write_file(options.json, json_from_report(report).dump(2) + '\n');
+    }
+    fmt::print("{}\n", summary_from_report(report).dump());
+}
+
+}  // namespace
+
+void add_sequence_command(CLI::App& app) {
+    auto options = std::make_shared<SequenceCommandOptions>();
+    CLI::App* command = app.add_subcommand(
+        "sequence", "Play a scripted session in real time; record images, errors and timings.");
+    add_server_options(*command, options->server);
+    command->add_option("script", options->script, "script, a JSON file")->required();
+    command->add_option("--scene", options->scene, "scene name (default: the script's)");
+    command->add_option("--room", options->room,
+                        "room to join (default: a new one that nobody else sees)");
+    command->add_option("--environment", options->environment,
+                        "environment to start with: a file to upload or a name on the server");
+    command->add_option("--projection", options->projection,
+                        "projection of the file (default: by its shape)");
+    command->add_option("-o,--output", options->folder, "folder for the images");
+    command
+        ->add_option("--images", options->files,
+                     "none, jpeg, png, or exr for the linear ones (default: jpeg with -o)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, ImageFiles>{{"none", ImageFiles::none},
+                                              {"jpeg", ImageFiles::jpeg},
+                                              {"png", ImageFiles::png},
+                                              {"exr", ImageFiles::exr}}));
+    command->add_option("--rate", options->rate_hz, "edits per second while something moves")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+    command->add_option("--csv", options->csv, "file for a table, one line per image");
+    command->add_option("--json", options->json, "file for the same as JSON");
+    command->callback([options] { play(*options); });
+}
+
+}  // namespace relume::cli

@@ -1,0 +1,29 @@
+// Plays a script against a server in real time and records what comes back.
+#pragma once
+
+#include "client/cli/sequence_report.h"
+#include "client/cli/sequence_script.h"
+#include "client/cli/session.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace relume::cli {
+
+// jpeg: all as .jpg; png: all as .png; exr: linear images as .exr, the others as .jpg.
+enum class ImageFiles { none, jpeg, png, exr };
+
+struct SequenceOptions {
+    SessionOptions session;
+    SequenceScript script;
+    double rate_hz = 30;
+    ImageFiles files = ImageFiles::none;
+    std::filesystem::path folder;  // exists, unless files is none
+};
+
+// The start patch is sent first and waited for; images and times count from the first step on.
+// After the last step it waits until the last edit is shown. Throws ClientError when an edit is
+// refused, the session ends early, or a rest runs out of time.
+[[nodiscard]] SequenceReport play_sequence(const SequenceOptions& options);
+
+}  // namespace relume::cli
