@@ -36,7 +36,10 @@ export class ApiError extends Error {
 }
 
 export class Api {
-    constructor(private readonly server: string) {}
+    constructor(
+        private readonly server: string,
+        private readonly token: string | null,
+    ) {}
 
     async scenes(): Promise<SceneEntry[]> {
         const json = await this.request("/api/scenes");
@@ -57,7 +60,9 @@ export class Api {
     }
 
     async upload(name: string, file: Blob): Promise<UploadResult> {
-        const json = await this.request(`/api/environments?name=${encodeURIComponent(name)}`, {
+        const query = new URLSearchParams({ name });
+        if (this.token !== null) query.set("token", this.token);
+        const json = await this.request(`/api/environments?${query.toString()}`, {
             method: "POST",
             headers: { "Content-Type": "application/octet-stream" },
             body: file,

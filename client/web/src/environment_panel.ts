@@ -3,6 +3,7 @@ import { type FolderApi, Pane } from "tweakpane";
 import type { EnvironmentEntry } from "./api";
 import { hexFromLinear, linearFromHex } from "./colour";
 import { stopsText } from "./format";
+import { labelFields } from "./pane_labels";
 import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
 import type { Session } from "./session";
 import type { JsonObject, RoomState } from "./wire/state";
@@ -37,6 +38,7 @@ export class EnvironmentPanel {
         this.blendFolder = this.pane.addFolder({ title: "Blend" });
         this.addBlendBindings();
         this.addRotationBindings();
+        labelFields(root);
         session.stateChanged.listen(() => this.syncSoon());
         session.statusChanged.listen(({ kind }) => {
             this.pane.disabled = kind !== "open";
@@ -50,6 +52,7 @@ export class EnvironmentPanel {
         this.names = names;
         for (const child of [...this.blendFolder.children]) child.dispose();
         this.addBlendBindings();
+        labelFields(this.blendFolder.element);
     }
 
     private addLightBindings(): void {

@@ -30,6 +30,7 @@ export class ImageDecoder {
     });
     private pending: Frame | null = null;
     private busy = false;
+    private connection = 0;
 
     constructor(
         private readonly acknowledge: (sequence: number) => void,
@@ -46,9 +47,10 @@ export class ImageDecoder {
         return header;
     }
 
-    /** Forgets the waiting frame: after a reconnect its sequence number means nothing. */
+    /** Forgets the waiting frame and the one in work: they are of another connection. */
     clear(): void {
         this.pending = null;
+        ++this.connection;
     }
 
     private async decodePending(): Promise<void> {
@@ -58,8 +60,11 @@ export class ImageDecoder {
             this.pending = null;
             this.acknowledge(frame.header.sequence);
             if (!this.isWanted(frame.header)) continue;
+            const { connection } = this;
             try {
-                this.decoded.send(await this.decode(frame));
+                const image = await this.decode(frame);
+                if (connection === this.connection) this.decoded.send(image);
+                else if (image.kind === "jpeg") image.bitmap.close();
             } catch (error) {
                 this.failed.send(error instanceof Error ? error.message : String(error));
             }

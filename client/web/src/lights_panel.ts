@@ -5,6 +5,7 @@ import { brightnessFromLinear, type HexColour, linearFromBrightness } from "./co
 import { icon, make } from "./dom";
 import { amountText, stopsText } from "./format";
 import { positionFromDirection, directionFromPosition } from "./lat_long";
+import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
 import type { AreaLight } from "./wire/state";
 
@@ -35,6 +36,7 @@ export class LightsPanel {
     private readonly pane: Pane;
     private syncing = false;
     private frame = 0;
+    private drawn = "";
 
     constructor(
         root: HTMLElement,
@@ -44,6 +46,7 @@ export class LightsPanel {
         root.append(this.list, this.paneHost);
         this.pane = new Pane({ container: this.paneHost });
         this.addBindings();
+        labelFields(this.paneHost);
         session.stateChanged.listen(() => this.redrawSoon());
         lights.selectionChanged.listen(() => this.redrawSoon());
     }
@@ -109,6 +112,9 @@ export class LightsPanel {
 
     private drawList(): void {
         const entries = Object.entries(this.lights.all);
+        const key = JSON.stringify([entries, this.lights.selected]);
+        if (key === this.drawn) return; // rows stay under the pointer while others move the light
+        this.drawn = key;
         const focused = document.activeElement?.getAttribute("data-light-row");
         this.list.replaceChildren(...entries.map(([id, light]) => this.makeRow(id, light)));
         if (entries.length === 0) {

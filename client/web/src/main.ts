@@ -146,7 +146,7 @@ async function chooseScene(api: Api, place: Place, picker: ScenePicker): Promise
 
 async function start(): Promise<void> {
     const place = placeFromAddress(new URL(location.href));
-    const api = new Api(place.server);
+    const api = new Api(place.server, place.token);
     const scene = await chooseScene(api, place, new ScenePicker(api));
     const room = place.room ?? defaultRoom(scene);
     const studio = new Studio(

@@ -4,6 +4,7 @@ import { hexFromLinear, linearFromHex } from "./colour";
 import { kMaxExposureStops, kMinExposureStops } from "./display";
 import type { Exposure } from "./exposure";
 import { percentText, stopsText } from "./format";
+import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
 import type {
     BackgroundMode,
@@ -52,6 +53,7 @@ export class StrategyPanel {
         this.addDisplayBindings();
         this.backgroundColour = this.addBackgroundBindings();
         this.amounts = this.addStrategyBindings();
+        labelFields(root);
         session.stateChanged.listen(() => this.syncSoon());
         exposure.changed.listen(() => this.syncSoon());
     }
