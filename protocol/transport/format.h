@@ -22,6 +22,8 @@ inline constexpr std::array<std::uint8_t, 8> kShardMagic{'R', 'E', 'L', 'U',
                                                          'M', 'E', 'S', 'H'};
 inline constexpr std::size_t kShardHeaderBytes = 128;
 inline constexpr std::size_t kShardAlignment = 64;
+// Zeroes after the data, so that vector loads may run past the last cell.
+inline constexpr std::size_t kShardTailBytes = 64;
 
 // How a cell (256 receivers of one column) is stored.
 enum class CellTag : std::uint8_t {

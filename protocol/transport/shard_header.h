@@ -28,7 +28,9 @@ struct ShardHeader {
 
     [[nodiscard]] std::uint64_t computed_checksum() const;
     [[nodiscard]] std::size_t data_offset() const;
-    [[nodiscard]] std::size_t file_bytes() const { return data_offset() + data_bytes; }
+    [[nodiscard]] std::size_t file_bytes() const {
+        return data_offset() + data_bytes + kShardTailBytes;
+    }
 };
 static_assert(sizeof(ShardHeader) == kShardHeaderBytes);
 

@@ -24,6 +24,15 @@ void check_sum(std::string_view file,
     }
 }
 
+void check_zero(std::string_view file,
+                std::string_view section,
+                std::span<const std::byte> bytes) {
+    if (std::any_of(bytes.begin(), bytes.end(),
+                    [](std::byte byte) { return byte != std::byte{0}; })) {
+        throw TransportError(fmt::format("{}: {}: expected zeroes", file, section));
+    }
+}
+
 // Throws when the segment's tags and cells do not fill it exactly.
 void check_segment(std::span<const std::uint8_t> segment, std::uint32_t block_count) {
     if (segment.empty()) {
@@ -69,16 +78,12 @@ ShardReader::ShardReader(const std::filesystem::path& path)
     const std::string name = path.string();
     const auto bytes = file_.bytes();
     const auto index = bytes.subspan(kShardHeaderBytes, header_.index_bytes);
-    const auto data = bytes.subspan(header_.data_offset());
+    const auto data = bytes.subspan(header_.data_offset(), header_.data_bytes);
     check_sum(name, "index", index, header_.index_checksum);
     check_sum(name, "data", data, header_.data_checksum);
-    const auto padding =
-        bytes.subspan(kShardHeaderBytes + header_.index_bytes,
-                      header_.data_offset() - kShardHeaderBytes - header_.index_bytes);
-    if (std::any_of(padding.begin(), padding.end(),
-                    [](std::byte byte) { return byte != std::byte{0}; })) {
-        throw TransportError(fmt::format("{}: padding: expected zeroes", name));
-    }
+    check_zero(name, "padding",
+               bytes.first(header_.data_offset()).subspan(kShardHeaderBytes + index.size()));
+    check_zero(name, "tail", bytes.last(kShardTailBytes));
     index_ = {reinterpret_cast<const std::uint32_t*>(index.data()),
               index.size() / sizeof(std::uint32_t)};
     data_ = {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()};

@@ -83,8 +83,9 @@ ShardHeader write_shard(const std::filesystem::path& path,
     header.header_checksum = header.computed_checksum();
     const std::vector<std::byte> padding(header.data_offset() - kShardHeaderBytes -
                                          header.index_bytes);
-    write_file_atomically(
-        path, {std::as_bytes(std::span(&header, 1)), bytes_of(index), padding, bytes_of(data)});
+    constexpr std::array<std::byte, kShardTailBytes> tail{};
+    write_file_atomically(path, {std::as_bytes(std::span(&header, 1)), bytes_of(index), padding,
+                                 bytes_of(data), tail});
     return header;
 }
 

@@ -1,6 +1,7 @@
 #include "server/engine/band_images.h"
 
-#include "server/engine/accumulate.h"
+#include "server/engine/kernels/accumulate.h"
+#include "server/engine/kernels/vector_loops.h"
 
 #include <tbb/parallel_for.h>
 
@@ -20,31 +21,27 @@ constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
 // One shard's worth of sums; stays in the second-level cache.
 using ShardSums = std::array<float, transport::kMaxBlocksPerShard * kSumsPerBlock>;
 
-void add_column(const transport::Transport& transport,
-                const transport::ShardReader& shard,
-                const ColumnChange& change,
-                float* sums) {
+// The segments of the columns in one shard, weighted; replaces the content of `segments`.
+void gather_segments(const transport::Transport& transport,
+                     const transport::ShardReader& shard,
+                     std::span<const ColumnChange> changes,
+                     std::vector<WeightedSegment>& segments) {
     const transport::ColourModel& colour = transport.manifest().colour;
-    for (std::uint32_t k = 0; k < colour.channels; ++k) {
-        const transport::SegmentView segment = shard.segment(change.column, k);
-        if (segment.empty()) {
-            continue;
+    segments.clear();
+    for (const ColumnChange& change : changes) {
+        for (std::uint32_t k = 0; k < colour.channels; ++k) {
+            const transport::SegmentView segment = shard.segment(change.column, k);
+            if (segment.empty()) {
+                continue;
+            }
+            const float step = transport.step(change.column, k);
+            WeightedSegment weighted{.segment = segment, .weights = {}};
+            for (std::size_t c = 0; c < kColours; ++c) {
+                weighted.weights[c] = step * colour.matrix[c][k] * change.amount[c];
+            }
+            segments.push_back(weighted);
         }
-        const float step = transport.step(change.column, k);
-        ColourWeights weights;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            weights[c] = step * colour.matrix[c][k] * change.amount[c];
-        }
-        accumulate_segment(segment, shard.block_count(), weights, sums);
     }
-}
-
-double energy(std::span<const float> values) {
-    double sum = 0;
-    for (const float value : values) {
-        sum += double{value} * double{value};
-    }
-    return sum;
 }
 
 }  // namespace
@@ -114,20 +111,16 @@ void BandImages::update_band(std::size_t shard,
     const std::span<float> image = part(bands_[band], shard);
     const std::span<float> difference = std::span(storage).first(image.size());
     std::fill(difference.begin(), difference.end(), 0.0F);
-    const transport::Transport& transport = scene_->transport();
-    for (const ColumnChange& change : changes) {
-        add_column(transport, transport.shards()[shard], change, difference.data());
-    }
+    thread_local std::vector<WeightedSegment> segments;
+    const transport::ShardReader& reader = scene_->transport().shards()[shard];
+    gather_segments(scene_->transport(), reader, changes, segments);
+    accumulate_segments(segments, reader.block_count(), difference.data());
     if (clear) {
         std::copy(difference.begin(), difference.end(), image.begin());
     } else {
-        const std::span<float> total = part(total_, shard);
-        for (std::size_t i = 0; i < image.size(); ++i) {
-            image[i] += difference[i];
-            total[i] += difference[i];
-        }
+        add_to_both(difference, image, part(total_, shard));
     }
-    energies_[shard * bands_.size() + band] = energy(image);
+    energies_[shard * bands_.size() + band] = squared_norm(image);
 }
 
 void BandImages::sum_bands(std::size_t shard) {

@@ -1,5 +1,7 @@
 #include "server/engine/error_estimate.h"
 
+#include "server/engine/kernels/vector_loops.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,12 +14,6 @@ using transport::kColours;
 
 // Float sums of this many columns, then double: fast, and the error stays near float's epsilon.
 constexpr std::size_t kColumnsPerChunk = 256;
-
-void add_scaled(std::span<const std::int16_t> values, float weight, std::span<float> sums) {
-    for (std::size_t r = 0; r < values.size(); ++r) {
-        sums[r] += weight * static_cast<float>(values[r]);
-    }
-}
 
 double squared_norm(std::span<const double> values) {
     double sum = 0;

@@ -1,6 +1,7 @@
-#include "server/engine/accumulate.h"
+#include "server/engine/kernels/accumulate.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <random>
@@ -40,6 +41,7 @@ Segment segment_of(const std::vector<QuantisedCell>& cells, std::size_t misalign
                     .block_count = count};
     segment.bytes.insert(segment.bytes.end(), tags.begin(), tags.end());
     segment.bytes.insert(segment.bytes.end(), packed.begin(), packed.end());
+    segment.bytes.resize(segment.bytes.size() + transport::kShardTailBytes);
     return segment;
 }
 
@@ -61,29 +63,68 @@ std::vector<QuantisedCell> cells_of_every_kind() {
     return cells;
 }
 
-TEST(Accumulate, AddsWhatTheCellsHoldToTheLastBit) {
+std::vector<WeightedSegment> weighted(const std::vector<Segment>& segments) {
+    std::vector<WeightedSegment> list;
+    float weight = 0.1F;
+    for (const Segment& segment : segments) {
+        list.push_back({segment.view(), {weight, -3 * weight, weight * weight}});
+        weight *= -1.7F;
+    }
+    return list;
+}
+
+TEST(Accumulate, ScalarAddsWhatTheCellsHold) {
     const auto cells = cells_of_every_kind();
-    const ColourWeights weights{0.1F, -2.5F, 3e-5F};
-    for (std::size_t misalignment = 0; misalignment < 5; ++misalignment) {
-        const Segment segment = segment_of(cells, misalignment);
-        std::vector<float> sums(cells.size() * kColours * kBlockSize, 0.75F);
-        accumulate_segment(segment.view(), segment.block_count, weights, sums.data());
-        for (std::size_t b = 0; b < cells.size(); ++b) {
-            for (std::size_t c = 0; c < kColours; ++c) {
-                for (std::size_t i = 0; i < kBlockSize; ++i) {
-                    const float expected = 0.75F + weights[c] * static_cast<float>(cells[b][i]);
-                    ASSERT_EQ(sums[(b * kColours + c) * kBlockSize + i], expected)
-                        << "block " << b << " slot " << i;
-                }
+    const std::vector<Segment> segments{segment_of(cells, 0)};
+    const auto list = weighted(segments);
+    std::vector<float> sums(cells.size() * kColours * kBlockSize, 0.75F);
+    accumulate_segments_scalar(list, segments[0].block_count, sums.data());
+    for (std::size_t b = 0; b < cells.size(); ++b) {
+        for (std::size_t c = 0; c < kColours; ++c) {
+            for (std::size_t i = 0; i < kBlockSize; ++i) {
+                const float expected =
+                    0.75F + list[0].weights[c] * static_cast<float>(cells[b][i]);
+                ASSERT_EQ(sums[(b * kColours + c) * kBlockSize + i], expected);
             }
         }
     }
 }
 
+// Every instruction set this processor has gives the bits of the specification, for groups of
+// every size, cells of every kind next to each other, at every alignment.
+TEST(Accumulate, EveryTargetGivesTheBitsOfTheScalar) {
+    std::mt19937 random(5);
+    for (const std::size_t count : {1UL, 2UL, 7UL, 8UL, 9UL, 20UL}) {
+        std::vector<Segment> segments;
+        for (std::size_t s = 0; s < count; ++s) {
+            auto cells = cells_of_every_kind();
+            std::shuffle(cells.begin(), cells.end(), random);
+            segments.push_back(segment_of(cells, s % 5));
+        }
+        const auto list = weighted(segments);
+        const std::uint32_t blocks = segments[0].block_count;
+        std::vector<float> expected(blocks * kColours * kBlockSize, 0.75F);
+        accumulate_segments_scalar(list, blocks, expected.data());
+        for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().DeInit();
+            std::vector<float> sums(expected.size() + 1, 0.75F);
+            // One float off the alignment of any vector.
+            std::span<float> misaligned = std::span(sums).subspan(1);
+            accumulate_segments(list, blocks, misaligned.data());
+            EXPECT_TRUE(std::equal(expected.begin(), expected.end(), misaligned.begin()))
+                << count << " segments on " << hwy::TargetName(target);
+            EXPECT_EQ(sums[0], 0.75F);
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().DeInit();
+    }
+}
+
 TEST(Accumulate, LeavesTheBlocksOfOtherShardsAlone) {
-    const Segment segment = segment_of({QuantisedCell{1, 2, 3}}, 0);
+    const std::vector<Segment> segments{segment_of({QuantisedCell{1, 2, 3}}, 0)};
     std::vector<float> sums(2 * kColours * kBlockSize);
-    accumulate_segment(segment.view(), segment.block_count, {1, 1, 1}, sums.data());
+    accumulate_segments(weighted(segments), 1, sums.data());
     EXPECT_TRUE(std::all_of(sums.begin() + kColours * kBlockSize, sums.end(),
                             [](float value) { return value == 0; }));
 }
