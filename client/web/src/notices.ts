@@ -1,4 +1,4 @@
-/** Messages that come and go at the edge of the stage; errors stay until they are dismissed. */
+/** Messages that come and go at the edge of the stage; errors and offers stay until they are dismissed. */
 import { icon, make } from "./dom";
 
 export interface Notice {
@@ -7,6 +7,7 @@ export interface Notice {
     found?: string | undefined;
     expected?: string | undefined;
     details?: string[];
+    action?: { words: string; run: () => void };
 }
 
 const kStayMilliseconds = 6000;
@@ -40,10 +41,25 @@ export class Notices {
         for (const detail of notice.details ?? []) {
             body.append(make("p", "notice-detail", {}, detail));
         }
+        const { action } = notice;
+        if (action !== undefined) {
+            const button = make(
+                "button",
+                "small-button notice-action",
+                { type: "button" },
+                action.words,
+            );
+            button.addEventListener("click", () => {
+                item.remove();
+                action.run();
+            });
+            body.append(button);
+        }
         const role = notice.tone === "error" ? "alert" : "status";
         const item = make("div", `notice notice-${notice.tone}`, { role }, body, close);
         close.addEventListener("click", () => item.remove());
-        if (notice.tone !== "error") setTimeout(() => item.remove(), kStayMilliseconds);
+        const stays = notice.tone === "error" || action !== undefined;
+        if (!stays) setTimeout(() => item.remove(), kStayMilliseconds);
         this.list.append(item);
         while (this.list.childElementCount > kMostShown) this.list.firstElementChild?.remove();
     }

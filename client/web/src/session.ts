@@ -16,13 +16,19 @@ export type SessionStatus =
     | { kind: "waiting"; words: string; retryAt: number }
     | { kind: "refused"; words: string };
 
+export interface Opening {
+    snapshot: Snapshot;
+    /** What this page showed last, where the server has since forgotten the room. */
+    forgotten: RoomState | null;
+}
+
 /** Above this many unsent bytes, edits wait and go on merging. */
 const kMostBufferedBytes = 64 * 1024;
 const kPolicyClose = 4000;
 
 export class Session {
     readonly statusChanged = new Signal<SessionStatus>();
-    readonly opened = new Signal<Snapshot>();
+    readonly opened = new Signal<Opening>();
     /** The state to show has changed: by the server or by an edit of this page. */
     readonly stateChanged = new Signal<RoomState>();
     readonly viewersChanged = new Signal<number>();
@@ -121,10 +127,14 @@ export class Session {
         if (message === null) return;
         if (message.type === "snapshot") {
             this.backoff.reset();
+            const forgotten =
+                this.shared !== null && message.revision < this.shared.revision
+                    ? this.shared.state
+                    : null;
             this.snapshot = message;
             this.shared = new SharedState(message);
             this.setStatus({ kind: "open", words: "Connected" });
-            this.opened.send(message);
+            this.opened.send({ snapshot: message, forgotten });
             this.viewersChanged.send(message.viewers);
             this.publishState();
         } else if (message.type === "change") {

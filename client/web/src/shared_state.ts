@@ -78,3 +78,21 @@ export class SharedState {
 function patched(state: RoomState, patch: JsonObject): RoomState {
     return applyPatch(state as unknown as Json, patch) as unknown as RoomState;
 }
+
+/** The edit that takes a room from one state to another. */
+export function patchToState(from: RoomState, to: RoomState): JsonObject {
+    const removed = Object.keys(from.lights).filter((id) => !(id in to.lights));
+    return {
+        ...(to as unknown as JsonObject),
+        blend: { name: to.blend.name ?? null, amount: to.blend.amount },
+        lights: {
+            ...(to.lights as unknown as JsonObject),
+            ...Object.fromEntries(removed.map((id) => [id, null])),
+        },
+        budget: {
+            milliseconds: to.budget.milliseconds ?? null,
+            coefficients: to.budget.coefficients ?? null,
+            target_error: to.budget.target_error,
+        },
+    };
+}

@@ -18,10 +18,12 @@ import { pngFromSettled, saveAs } from "./png";
 import { PreviewStore } from "./preview_store";
 import { type MarkKind, Readouts } from "./readouts";
 import { Session } from "./session";
+import { patchToState } from "./shared_state";
 import { StatusLine } from "./status_line";
 import { StrategyPanel } from "./strategy_panel";
 import { Upload } from "./upload";
 import { kEncodingJpeg, type ImageHeader } from "./wire/image_header";
+import type { RoomState } from "./wire/state";
 
 /** So long after an edit the light still counts as moving. */
 const kMovingMilliseconds = 250;
@@ -162,7 +164,7 @@ export class Studio {
 
     private listenToSession(): void {
         const { session } = this;
-        session.opened.listen(({ scene, room }) => {
+        session.opened.listen(({ snapshot: { scene, room }, forgotten }) => {
             this.decoder.clear();
             this.timer.clear();
             this.readouts.clear();
@@ -171,6 +173,7 @@ export class Studio {
             setText(byId("room-name"), room);
             document.title = `${scene.name} – Relume`;
             void this.loadEnvironments();
+            if (forgotten !== null) this.offerBack(forgotten);
         });
         session.stateChanged.listen((state) => {
             if (session.lightRevision !== this.knownRevision || !session.isSettled) {
@@ -206,6 +209,21 @@ export class Studio {
             this.timer.editConfirmed(id, revision),
         );
         session.editDropped.listen((id) => this.timer.editDropped(id));
+    }
+
+    /** A server that was started anew begins the room anew; this page still knows the light. */
+    private offerBack(forgotten: RoomState): void {
+        this.notices.show({
+            tone: "warning",
+            title: "The server has begun this room anew",
+            action: {
+                words: "Bring back the light as it was",
+                run: () => {
+                    const { state } = this.session;
+                    if (state !== null) this.session.edit(patchToState(state, forgotten));
+                },
+            },
+        });
     }
 
     private listenToDecoder(): void {

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { SharedState } from "../src/shared_state";
+import { patchToState, SharedState } from "../src/shared_state";
 import type { Snapshot } from "../src/wire/message";
-import type { RoomState } from "../src/wire/state";
+import { applyPatch } from "../src/wire/merge_patch";
+import type { Json, RoomState } from "../src/wire/state";
 
 function stateWith(gain: number): RoomState {
     return {
@@ -83,5 +84,24 @@ describe("SharedState", () => {
         expect([shared.revision, shared.lightRevision]).toEqual([6, 5]);
         shared.confirm({ type: "change", revision: 7, patch: { ...patch, ...gain(2) } });
         expect([shared.revision, shared.lightRevision]).toEqual([7, 7]);
+    });
+});
+
+describe("patchToState", () => {
+    it("leads from any state to any other", () => {
+        const light = { direction: [0, 1, 0], angular_radius_degrees: 5 };
+        const lit = { ...stateWith(1), lights: { key: light, fill: light } };
+        const others = [
+            stateWith(3),
+            lit,
+            { ...stateWith(2), blend: { name: "night", amount: 0.5 }, lights: { fill: light } },
+            { ...stateWith(2), budget: { coefficients: 30, target_error: 0.1 } },
+        ] as unknown as RoomState[];
+        for (const from of others) {
+            for (const to of others) {
+                const patch = patchToState(from, to);
+                expect(applyPatch(from as unknown as Json, patch)).toEqual(to);
+            }
+        }
     });
 });
