@@ -10,7 +10,7 @@ namespace relume::scene {
 
 // Where a camera stands, before the image's shape is known. World units, +Y up.
 struct CameraPlacement {
-    std::string name;
+    std::string name{};
     Imath::V3f eye{0, 0, 0};
     Imath::V3f look_at{0, 0, -1};
     Imath::V3f up{0, 1, 0};

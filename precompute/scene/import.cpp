@@ -2,6 +2,7 @@
 
 #include "precompute/scene/error.h"
 #include "precompute/scene/import_folder.h"
+#include "precompute/scene/import_log.h"
 #include "precompute/scene/import_materials.h"
 #include "precompute/scene/import_nodes.h"
 #include "precompute/scene/srgb.h"
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <fstream>
 #include <new>
 #include <string>
 #include <system_error>
@@ -52,6 +55,23 @@ void check_file(const fs::path& path, std::uint64_t max_bytes) {
         throw SceneError(SceneFault::too_large,
                          fmt::format("scene '{}' has {} bytes; expected at most {}",
                                      path.string(), bytes, max_bytes));
+}
+
+// assimp 5.2 waits for ever for the rest of a PLY header that has no end.
+void check_ply_header(const fs::path& path) {
+    constexpr std::size_t kLongestHeader = 65536;
+    std::string head(kLongestHeader, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    const bool is_ply = head.rfind("ply", 0) == 0;
+    const std::size_t end = head.find("\nend_header");
+    if (!is_ply || end == std::string::npos || head.find('\n', end + 1) == std::string::npos)
+        throw SceneError(
+            SceneFault::corrupt_file,
+            fmt::format("scene '{}' has no PLY header; expected 'ply' … 'end_header' "
+                        "in its first {} bytes",
+                        path.string(), kLongestHeader));
 }
 
 // Before assimp's own steps walk over the arrays by these indices.
@@ -124,15 +144,31 @@ void whiten_coloured_materials(Scene& scene) {
     }
 }
 
+bool has_polygons(const aiMesh& mesh) {
+    return std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                       [](const aiFace& face) { return face.mNumIndices >= 3; });
+}
+
 bool lacks_normals(const aiScene& source) {
     return std::any_of(source.mMeshes, source.mMeshes + source.mNumMeshes,
                        [](const aiMesh* mesh) { return !mesh->HasNormals(); });
+}
+
+// assimp drops faces whose indices it cannot follow and says so only in its log.
+void check_log(const std::string& file, const ImportLog& log, ImportReport& report) {
+    for (const std::string& warning : log.warnings()) {
+        if (warning.find("out-of-range") != std::string::npos)
+            throw SceneError(SceneFault::index_out_of_range,
+                             fmt::format("scene '{}': {}", file, warning));
+        report.repairs.push_back("reader: " + warning);
+    }
 }
 
 const aiScene& read_file(Assimp::Importer& importer,
                          const fs::path& path,
                          FileFormat format,
                          ImportReport& report) {
+    const ImportLog log;
     const std::string file = path.string();
     const auto require = [&](const aiScene* source) -> const aiScene& {
         if (source == nullptr || source->mRootNode == nullptr)
@@ -142,22 +178,28 @@ const aiScene& read_file(Assimp::Importer& importer,
         return *source;
     };
     const aiScene& raw = require(importer.ReadFile(file, 0));
-    for (unsigned i = 0; i < raw.mNumMeshes; ++i)
+    check_log(file, log, report);
+    bool has_faces = false;
+    for (unsigned i = 0; i < raw.mNumMeshes; ++i) {
         check_mesh(file, *raw.mMeshes[i]);
+        has_faces = has_faces || has_polygons(*raw.mMeshes[i]);
+    }
     report_unused(raw, *static_cast<FolderIo*>(importer.GetIOHandler()), report);
-    if (raw.mNumMeshes == 0)
-        throw SceneError(SceneFault::no_geometry,
-                         fmt::format("scene '{}' holds no mesh; expected at least one", file));
-    if (lacks_normals(raw))
+    if (!has_faces)
+        throw SceneError(
+            SceneFault::no_geometry,
+            fmt::format("scene '{}' holds no triangles; expected at least one", file));
+    // Points and lines go first: assimp 5.2 ends the program where it should triangulate them.
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene& polygons = require(importer.ApplyPostProcessing(aiProcess_SortByPType));
+    if (lacks_normals(polygons))
         report.repairs.emplace_back(wants_smooth_normals(format)
                                         ? "missing normals made, smooth up to 60 degree edges"
                                         : "meshes without normals are shaded flat");
-    unsigned steps =
-        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
+    unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
     if (wants_smooth_normals(format))
         steps |= aiProcess_GenSmoothNormals;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseDegrees);
     return require(importer.ApplyPostProcessing(steps));
 }
@@ -167,6 +209,8 @@ const aiScene& read_file(Assimp::Importer& importer,
 Scene import_scene(const fs::path& path, const ImportOptions& options) {
     const FileFormat format = format_of(path);
     check_file(path, options.max_file_bytes);
+    if (format == FileFormat::ply)
+        check_ply_header(path);
     Scene scene;
     scene.name = path.stem().string();
     try {

@@ -127,11 +127,8 @@ Material MaterialImporter::from_mtl(const aiMaterial& m) {
         texture(m, aiTextureType_DIFFUSE, 0, TextureContent::colour, material);
     const Imath::V3f specular = colour(m, AI_MATKEY_COLOR_SPECULAR, Imath::V3f(0));
     const float exponent = number(m, AI_MATKEY_SHININESS, 0);
-    // `illum 0` and `illum 1` say that Ks is not meant.
-    int shading = aiShadingMode_Phong;
-    m.Get(AI_MATKEY_SHADING_MODEL, shading);
-    const bool shines = shading != aiShadingMode_Gouraud && shading != aiShadingMode_NoShading;
-    if (shines && exponent > 0 && !is_black(specular)) {
+    // `illum` is not asked: files that leave it out read as `illum 1`, and many that shine do.
+    if (exponent > 0 && !is_black(specular)) {
         material.model = BsdfModel::phong;
         material.specular = specular;
         material.exponent = exponent;

@@ -90,18 +90,18 @@ Imath::M44f world_matrix_of(const aiNode* node) {
     return matrix;
 }
 
-// assimp gives the full horizontal angle, of a square picture where the file names no aspect.
+// assimp 5.2 hands on glTF's vertical angle times the aspect, if the file names one.
 float vertical_fov_degrees(const aiCamera& camera) {
     const float aspect = camera.mAspect > 0 ? camera.mAspect : 1.0F;
-    const float half = std::atan(std::tan(camera.mHorizontalFOV * 0.5F) / aspect);
-    return half * 360.0F / std::numbers::pi_v<float>;
+    return camera.mHorizontalFOV / aspect * 180.0F / std::numbers::pi_v<float>;
 }
 
 CameraPlacement placement_of(const aiScene& source, const aiCamera& camera) {
     const Imath::M44f to_world = world_matrix_of(source.mRootNode->FindNode(camera.mName));
     CameraPlacement placement;
     placement.name = camera.mName.C_Str();
-    placement.eye = vector_of(camera.mPosition) * to_world;
+    // At its node's origin: mPosition repeats the node's own translation.
+    placement.eye = Imath::V3f(0) * to_world;
     // A node's scale must not turn the view into a point or an overflow.
     placement.look_at =
         placement.eye + transformed_direction(to_world, vector_of(camera.mLookAt)).normalized();

@@ -18,7 +18,7 @@ using TextureIndex = std::uint32_t;
 
 // All materials are two-sided: the normal is turned to the viewer.
 struct Material {
-    std::string name;
+    std::string name{};
     BsdfModel model = BsdfModel::lambert;
     Imath::V3f base_colour{0.5F, 0.5F, 0.5F};  // Lambert albedo, Phong kd, GGX base colour
     Imath::V3f specular{0, 0, 0};              // Phong ks

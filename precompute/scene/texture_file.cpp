@@ -122,8 +122,11 @@ Texture decode_texture(const std::string& name,
                        TextureContent content) {
     OIIO::Filesystem::IOMemReader reader(OIIO::cspan<std::uint8_t>(
         file.data(), static_cast<OIIO::cspan<std::uint8_t>::size_type>(file.size())));
-    const OIIO::ImageSpec options = read_options();
-    const auto input = OIIO::ImageInput::open(name, &options, &reader);
+    OIIO::ImageSpec options = read_options();
+    // Beside other options the reader is only found among them.
+    OIIO::Filesystem::IOProxy* proxy = &reader;
+    options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const auto input = OIIO::ImageInput::open(name, &options);
     if (!input)
         refuse(name, OIIO::geterror());
     return read_texture(name, *input, content);

@@ -181,7 +181,9 @@ void MeshBuilder::add_tube(const std::vector<TubePoint>& axis,
             add_vertex(ring_point(end, j), normal, {0, 0});
         for (std::uint32_t j = 0; j < sides; ++j) {
             const std::uint32_t next = (j + 1) % sides;
-            mesh_.triangles.push_back({centre, centre + 1 + j, centre + 1 + next});
+            const std::uint32_t a = centre + 1 + (end == 0 ? next : j);
+            const std::uint32_t b = centre + 1 + (end == 0 ? j : next);
+            mesh_.triangles.push_back({centre, a, b});
         }
     }
 }

@@ -1,0 +1,132 @@
+#include "precompute/scene/builtin.h"
+
+#include "precompute/scene/error.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace relume::scene {
+namespace {
+
+// Built once for all the tests that only look.
+const Scene& built(std::string_view name) {
+    static std::map<std::string_view, Scene> scenes;
+    const auto place = scenes.find(name);
+    return place != scenes.end()
+               ? place->second
+               : scenes.emplace(name, build_builtin_scene(name)).first->second;
+}
+
+class EveryBuiltin : public testing::TestWithParam<BuiltinScene> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes,
+                         EveryBuiltin,
+                         testing::ValuesIn(builtin_scenes()),
+                         [](const auto& param_info) {
+                             return std::string(param_info.param.name);
+                         });
+
+TEST_P(EveryBuiltin, IsCompleteAndNeedsNoRepair) {
+    const Scene& scene = built(GetParam().name);
+    EXPECT_EQ(scene.name, GetParam().name);
+    EXPECT_GT(scene.triangle_count(), 0U);
+    EXPECT_TRUE(scene.report.unused.empty());
+    EXPECT_TRUE(scene.report.repairs.empty());
+    for (const Mesh& mesh : scene.meshes) {
+        ASSERT_LT(mesh.material, scene.materials.size());
+        for (const Imath::V3f& normal : mesh.normals)
+            ASSERT_NEAR(normal.length(), 1.0F, 1e-3F);
+    }
+    EXPECT_NO_THROW(Camera(scene.camera, 64, 64));
+}
+
+TEST_P(EveryBuiltin, IsTheSameEveryTime) {
+    const Scene& a = built(GetParam().name);
+    const Scene b = GetParam().build();
+    ASSERT_EQ(a.meshes.size(), b.meshes.size());
+    for (std::size_t i = 0; i < a.meshes.size(); ++i) {
+        ASSERT_EQ(a.meshes[i].positions.size(), b.meshes[i].positions.size());
+        EXPECT_EQ(std::memcmp(a.meshes[i].positions.data(), b.meshes[i].positions.data(),
+                              a.meshes[i].positions.size() * sizeof(Imath::V3f)),
+                  0);
+        EXPECT_EQ(a.meshes[i].triangles, b.meshes[i].triangles);
+    }
+}
+
+// A normal that points against its triangle would turn the shading inside out.
+TEST_P(EveryBuiltin, NormalsGoWithTheirTriangles) {
+    const Scene& scene = built(GetParam().name);
+    std::size_t against = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.normals.empty())
+            continue;
+        for (const Triangle& t : mesh.triangles) {
+            const Imath::V3f face = (mesh.positions[t[1]] - mesh.positions[t[0]])
+                                        .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
+            const Imath::V3f mean =
+                mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
+            against += face.dot(mean) <= 0 ? 1U : 0U;
+        }
+    }
+    EXPECT_LE(against, scene.triangle_count() / 1000);
+}
+
+TEST(Builtin, UnknownNameSaysWhichExist) {
+    try {
+        (void)build_builtin_scene("teapot");
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_EQ(error.fault(), SceneFault::unknown_name);
+        EXPECT_NE(std::string(error.what()).find("table"), std::string::npos);
+    }
+}
+
+TEST(Builtin, Mesh100kIsAClosedMeshOfOverAHundredThousandTriangles) {
+    const Scene& scene = built("mesh100k");
+    const Mesh& ball = scene.meshes.at(1);
+    EXPECT_EQ(ball.triangles.size(), 100800U);
+    // Closed: every edge, by position, is used once in each sense.
+    using Point = std::array<float, 3>;
+    std::map<std::pair<Point, Point>, int> edges;
+    const auto point = [&](std::uint32_t i) {
+        const Imath::V3f& p = ball.positions[i];
+        return Point{p.x, p.y, p.z};
+    };
+    for (const Triangle& t : ball.triangles) {
+        for (std::size_t k = 0; k < 3; ++k)
+            ++edges[{point(t[k]), point(t[(k + 1) % 3])}];
+    }
+    for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1);
+        ASSERT_EQ(edges.count({edge.second, edge.first}), 1U);
+    }
+}
+
+TEST(Builtin, TableHasAPlantAndGlossyThings) {
+    const Scene& scene = built("table");
+    std::size_t leaf_triangles = 0;
+    std::set<BsdfModel> models;
+    for (const Mesh& mesh : scene.meshes) {
+        leaf_triangles += mesh.name == "leaves" ? mesh.triangles.size() : 0;
+        models.insert(scene.materials[mesh.material].model);
+    }
+    EXPECT_GT(leaf_triangles / 48, 300U);  // 48 triangles a leaf
+    EXPECT_EQ(models.count(BsdfModel::ggx), 1U);
+    EXPECT_EQ(models.count(BsdfModel::lambert), 1U);
+}
+
+TEST(Builtin, BowlIsWhiteAndFlat) {
+    const Scene& scene = built("bowl");
+    EXPECT_EQ(scene.materials[0].base_colour, Imath::V3f(1));
+    EXPECT_TRUE(scene.meshes[0].normals.empty());
+}
+
+}  // namespace
+}  // namespace relume::scene
