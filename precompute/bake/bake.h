@@ -1,0 +1,52 @@
+// From a scene to a transport directory.
+#pragma once
+
+#include "precompute/bake/parameters.h"
+#include "precompute/scene/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+namespace relume::bake {
+
+struct BakeProgress {
+    std::uint64_t pixels_done = 0;  // resumed shards included
+    std::uint64_t pixels_resumed = 0;
+    std::uint64_t pixels = 0;
+    std::uint64_t rays = 0;
+};
+
+struct BakeHooks {
+    // Called from time to time, by one thread at a time.
+    std::function<void(const BakeProgress&)> on_progress;
+    // Asked from time to time, by any thread. When it says true the bake ends with
+    // BakeInterrupted, and the shards that are finished stay.
+    std::function<bool()> should_stop;
+};
+
+// How it went; the rest is in the manifest.
+struct BakeSummary {
+    double seconds = 0;
+    double pilot_seconds = 0;
+    double path_seconds = 0;    // camera rays and path tracing
+    double row_seconds = 0;     // visibility, projection, quantisation, encoding
+    double finish_seconds = 0;  // column tables, manifest, view
+    std::uint64_t visibility_rays = 0;
+    std::uint64_t path_rays = 0;
+    std::uint32_t shards = 0;
+    std::uint32_t shards_resumed = 0;
+    std::uint64_t peak_memory_bytes = 0;
+};
+
+// Bakes an image of the scene seen by its own camera into `directory`, which is made or
+// continued: shards of a bake of the same inputs that was interrupted are kept. The same inputs
+// give the same bytes on any number of threads. Memory stays bounded by a shard's rows of paths
+// and the non-zero values of the blocks in work. Throws BakeError, BakeInterrupted,
+// scene::SceneError, transport::TransportError.
+BakeSummary bake(const scene::Scene& scene,
+                 const BakeParameters& parameters,
+                 const std::filesystem::path& directory,
+                 const BakeHooks& hooks = {});
+
+}  // namespace relume::bake

@@ -1,0 +1,68 @@
+#include "precompute/bake/command_line.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace relume::bake {
+namespace {
+
+void add_bake_options(CLI::App& app, Arguments& arguments) {
+    BakeParameters& p = arguments.parameters;
+    auto* scene =
+        app.add_option("scene", arguments.scene, "glTF 2.0, GLB, OBJ or PLY file to bake");
+    app.add_option("--builtin", arguments.builtin,
+                   "Bake a scene made by code instead; `relume-bake list` names them")
+        ->excludes(scene);
+    app.add_option("-o,--output", arguments.output, "Transport directory, NAME.relume");
+    app.add_option("--eye", arguments.eye, "Where the camera stands: X,Y,Z");
+    app.add_option("--look-at", arguments.look_at, "What it looks at: X,Y,Z");
+    app.add_option("--up", arguments.up, "What is up for it: X,Y,Z [0,1,0]");
+    app.add_option("--fov", arguments.fov_degrees, "Vertical field of view in degrees [40]");
+    app.add_option("--size", arguments.size, "Image size in pixels: WxH [512x512]");
+    app.add_option("--light-resolution", p.face_resolution,
+                   "Texels along a face of the lighting cubemap, 4 to 256")
+        ->capture_default_str();
+    app.add_option("--bounces", p.bounces,
+                   "Reflections after the first surface; 0: direct light only")
+        ->capture_default_str();
+    app.add_option("--samples", p.samples, "Paths per pixel for indirect light")
+        ->capture_default_str();
+    app.add_option("--bits", p.bits, "Precision of stored values: 6, 7 or 8")
+        ->capture_default_str();
+    app.add_option("--pixel-samples", p.pixel_samples, "Camera positions per pixel")
+        ->capture_default_str();
+    app.add_option("--edge-samples", p.edge_samples,
+                   "More visibility rays per light texel at shadow edges")
+        ->capture_default_str();
+    app.add_option("--pool", p.pool_radius,
+                   "Radius in pixels within which paths are shared; 0: not at all")
+        ->capture_default_str();
+    app.add_option("--shrinkage", p.shrinkage,
+                   "Standard errors an indirect coefficient must stand clear of")
+        ->capture_default_str();
+    app.add_option("--threads", p.threads, "Threads; 0: one per core")->capture_default_str();
+    app.add_option("--seed", p.seed, "Chooses all random numbers")->capture_default_str();
+}
+
+}  // namespace
+
+void add_arguments(CLI::App& app, Arguments& arguments) {
+    app.require_subcommand(0, 1);
+    add_bake_options(app, arguments);
+    auto* info = app.add_subcommand("info", "Say what a transport directory holds");
+    info->add_option("directory", arguments.directory, "Transport directory")->required();
+    info->add_flag("--json", arguments.json, "As JSON, with everything that was measured");
+    auto* verify = app.add_subcommand("verify", "Check every byte of a transport directory");
+    verify->add_option("directory", arguments.directory, "Transport directory")->required();
+    auto* relight =
+        app.add_subcommand("relight", "Compute the dense product of transport and light");
+    relight->add_option("directory", arguments.directory, "Transport directory")->required();
+    relight
+        ->add_option("--light", arguments.light,
+                     "Cubemap strip of radiance, 6n×n, of the transport's resolution")
+        ->required();
+    relight->add_option("-o,--output", arguments.image, "EXR image to write")->required();
+    app.add_subcommand("list", "Name the built-in scenes");
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,35 @@
+// The words relume-bake understands.
+#pragma once
+
+#include "precompute/bake/parameters.h"
+
+#include <CLI/App.hpp>
+
+#include <optional>
+#include <string>
+
+namespace relume::bake {
+
+struct Arguments {
+    // bake
+    std::string scene;
+    std::string builtin;
+    std::string output;
+    std::string size;
+    std::string eye;
+    std::string look_at;
+    std::string up;
+    std::optional<float> fov_degrees;
+    BakeParameters parameters;
+    // info, verify, relight
+    std::string directory;
+    bool json = false;
+    std::string light;
+    std::string image;
+};
+
+// Without a subcommand relume-bake bakes; `info`, `verify`, `relight` and `list` are the
+// others.
+void add_arguments(CLI::App& app, Arguments& arguments);
+
+}  // namespace relume::bake

@@ -1,0 +1,209 @@
+#include "precompute/bake/commands.h"
+
+#include "precompute/bake/bake.h"
+#include "precompute/bake/error.h"
+#include "precompute/bake/image_file.h"
+#include "precompute/bake/inspect.h"
+#include "precompute/bake/progress_line.h"
+#include "precompute/bake/relight.h"
+#include "precompute/bake/report.h"
+#include "precompute/scene/builtin.h"
+#include "precompute/scene/import.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+
+namespace relume::bake {
+namespace {
+
+std::atomic<bool> stop_requested = false;
+
+void request_stop(int /*signal*/) {
+    stop_requested = true;
+}
+
+// `count` numbers with `separator` between them and nothing else.
+template <typename T>
+std::vector<T> parse_list(const char* option,
+                          const std::string& text,
+                          char separator,
+                          std::size_t count,
+                          const char* expected) {
+    std::vector<T> values;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (values.size() < count) {
+        T value{};
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc{}) {
+            break;
+        }
+        values.push_back(value);
+        at = next;
+        if (values.size() < count && at != end && *at == separator) {
+            ++at;
+        }
+    }
+    if (values.size() != count || at != end) {
+        throw BakeError(fmt::format("{} is '{}', expected {}", option, text, expected));
+    }
+    return values;
+}
+
+Imath::V3f parse_point(const char* option, const std::string& text) {
+    const auto values = parse_list<float>(option, text, ',', 3, "three numbers X,Y,Z");
+    return {values[0], values[1], values[2]};
+}
+
+// The camera of the command line, over the one of the scene where there is one.
+std::optional<scene::CameraPlacement> camera_of(
+    const Arguments& arguments, const std::optional<scene::CameraPlacement>& base) {
+    if (arguments.eye.empty() && arguments.look_at.empty() && arguments.up.empty() &&
+        !arguments.fov_degrees) {
+        return base;
+    }
+    if (!base && (arguments.eye.empty() || arguments.look_at.empty())) {
+        throw BakeError("a camera given by hand needs both --eye and --look-at");
+    }
+    scene::CameraPlacement camera = base.value_or(scene::CameraPlacement{});
+    if (!arguments.eye.empty()) {
+        camera.eye = parse_point("--eye", arguments.eye);
+    }
+    if (!arguments.look_at.empty()) {
+        camera.look_at = parse_point("--look-at", arguments.look_at);
+    }
+    if (!arguments.up.empty()) {
+        camera.up = parse_point("--up", arguments.up);
+    }
+    camera.vertical_fov_degrees = arguments.fov_degrees.value_or(camera.vertical_fov_degrees);
+    return camera;
+}
+
+scene::Scene scene_of(const Arguments& arguments) {
+    if (arguments.scene.empty() == arguments.builtin.empty()) {
+        throw BakeError("expected a scene file or --builtin NAME; see relume-bake --help");
+    }
+    if (!arguments.builtin.empty()) {
+        scene::Scene scene = scene::build_builtin_scene(arguments.builtin);
+        scene.camera = *camera_of(arguments, scene.camera);
+        return scene;
+    }
+    scene::ImportOptions options;
+    const bool whole_camera = !arguments.eye.empty() && !arguments.look_at.empty();
+    if (whole_camera) {
+        options.camera = camera_of(arguments, std::nullopt);
+    }
+    scene::Scene scene = scene::import_scene(arguments.scene, options);
+    if (!whole_camera) {
+        scene.camera = *camera_of(arguments, scene.camera);
+    }
+    return scene;
+}
+
+int run_bake(const Arguments& arguments) {
+    if (arguments.output.empty()) {
+        throw BakeError("expected -o NAME.relume; see relume-bake --help");
+    }
+    BakeParameters parameters = arguments.parameters;
+    if (!arguments.size.empty()) {
+        const auto size = parse_list<std::uint32_t>("--size", arguments.size, 'x', 2,
+                                                    "two whole numbers WxH");
+        parameters.width = size[0];
+        parameters.height = size[1];
+    }
+    check_parameters(parameters);
+    const scene::Scene scene = scene_of(arguments);
+    for (const std::string& unused : scene.report.unused) {
+        std::fprintf(stderr, "relume-bake: not used: %s\n", unused.c_str());
+    }
+    for (const std::string& repair : scene.report.repairs) {
+        std::fprintf(stderr, "relume-bake: repaired: %s\n", repair.c_str());
+    }
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+    BakeSummary summary;
+    {
+        ProgressLine line(stderr);
+        const BakeHooks hooks{
+            .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
+            .should_stop = [] { return stop_requested.load(); }};
+        summary = bake(scene, parameters, arguments.output, hooks);
+    }
+    write_report(arguments.output, report_from(scene, parameters, summary));
+    std::fputs(text_from_description(describe(arguments.output)).c_str(), stdout);
+    return 0;
+}
+
+int run_info(const Arguments& arguments) {
+    const nlohmann::json description = describe(arguments.directory);
+    const std::string text =
+        arguments.json ? description.dump(2) + "\n" : text_from_description(description);
+    std::fputs(text.c_str(), stdout);
+    return 0;
+}
+
+int run_verify(const Arguments& arguments) {
+    const std::vector<std::string> faults = find_faults(arguments.directory);
+    for (const std::string& fault : faults) {
+        std::fprintf(stderr, "relume-bake: %s\n", fault.c_str());
+    }
+    if (faults.empty()) {
+        std::printf("%s: every checksum and every cell is right\n",
+                    arguments.directory.c_str());
+    }
+    return faults.empty() ? 0 : 1;
+}
+
+int run_relight(const Arguments& arguments) {
+    const auto transport = transport::Transport::open(arguments.directory);
+    const transport::Manifest& manifest = transport->manifest();
+    const RelitImage relit =
+        relight(*transport, read_cubemap_strip(arguments.light, manifest.face_resolution));
+    FloatImage image{relit.width, relit.height, 4, {}};
+    for (std::uint32_t y = 0; y < relit.height; ++y) {
+        for (std::uint32_t x = 0; x < relit.width; ++x) {
+            for (const auto& plane : relit.rgb) {
+                image.values.push_back(
+                    static_cast<float>(plane[std::size_t{y} * relit.width + x]));
+            }
+            const transport::Receiver at = manifest.image.receiver_from_pixel(x, y);
+            image.values.push_back(
+                transport->coverage()[std::size_t{at.block} * transport::kBlockSize + at.slot]);
+        }
+    }
+    write_exr(arguments.image, image);
+    return 0;
+}
+
+int run_list() {
+    for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
+        fmt::print("{:10} {}\n", scene.name, scene.description);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int run_command(const CLI::App& app, const Arguments& arguments) {
+    if (app.got_subcommand("info")) {
+        return run_info(arguments);
+    }
+    if (app.got_subcommand("verify")) {
+        return run_verify(arguments);
+    }
+    if (app.got_subcommand("relight")) {
+        return run_relight(arguments);
+    }
+    if (app.got_subcommand("list")) {
+        return run_list();
+    }
+    return run_bake(arguments);
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,145 @@
+#include "precompute/bake/direct_light.h"
+
+#include "protocol/transport/hash.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace relume::bake {
+namespace {
+
+// Where in the texels the rays of a pixel go, relative to another: spread evenly over any small
+// neighbourhood of pixels (Roberts' R2 sequence along both axes), so that what noise is left at
+// shadow edges is fine-grained.
+Imath::V2f jitter_shift(std::uint32_t x,
+                        std::uint32_t y,
+                        std::uint32_t surface,
+                        std::uint64_t seed) {
+    const std::uint64_t bits = transport::mix_bits(transport::mix_bits(seed) + surface);
+    const double along = 0.7548776662466927 * x + 0.5698402909980532 * y;
+    const double across = 0.5698402909980532 * x + 0.2451223337533073 * y;
+    const auto fraction = [](double value) {
+        const double whole = static_cast<double>(static_cast<std::uint64_t>(value));
+        return std::min(static_cast<float>(value - whole), 0x1.fffffep-1F);
+    };
+    return {fraction(along + transport::unit_float(bits)),
+            fraction(across + transport::unit_float(bits << 32U))};
+}
+
+float sum(const std::vector<float>& values) {
+    return static_cast<float>(std::accumulate(values.begin(), values.end(), 0.0));
+}
+
+void add_scaled(const std::vector<float>& source, float factor, std::vector<float>& target) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        target[i] += factor * source[i];
+    }
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const RayCaster& caster,
+                         const LightTexels& texels,
+                         std::uint32_t edge_samples)
+    : caster_(caster), texels_(texels), visibility_(caster, texels, edge_samples) {}
+
+void DirectLight::compute(const PixelView& view,
+                          std::uint32_t x,
+                          std::uint32_t y,
+                          std::uint64_t seed,
+                          TexelRow& row,
+                          Scratch& scratch) const {
+    scratch.open.resize(texels_.size());
+    scratch.scattered.resize(texels_.size());
+    row.is_grey = view.surfaces.empty() ||
+                  (view.surfaces.size() == 1 && view.surfaces[0].point.bsdf.is_diffuse());
+    row.colour = {0, 0, 0};
+    row.white = {0, 0, 0};
+    for (std::size_t c = 0; c < (row.is_grey ? 1U : 3U); ++c) {
+        row.plane[c].assign(texels_.size(), 0.0F);
+    }
+    for (std::uint32_t i = 0; i < view.surfaces.size(); ++i) {
+        const PixelSurface& surface = view.surfaces[i];
+        light_surface(surface, jitter_shift(x, y, i, seed), scratch);
+        Reflection& reflection = scratch.reflection;
+        const Imath::V3f colour = reflection.is_diffuse ? surface.point.bsdf.diffuse_colour() *
+                                                              surface.tint * surface.share
+                                                        : surface.tint * surface.share;
+        if (row.is_grey) {
+            texels_.scatter(reflection.grey, row.plane[0]);
+            row.colour = colour;
+            row.white = colour * sum(row.plane[0]);
+            return;
+        }
+        if (reflection.is_diffuse) {
+            texels_.scatter(reflection.grey, scratch.scattered);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!reflection.is_diffuse) {
+                texels_.scatter(reflection.rgb[c], scratch.scattered);
+            }
+            const float factor = colour[static_cast<int>(c)];
+            add_scaled(scratch.scattered, factor, row.plane[c]);
+            row.white[static_cast<int>(c)] += factor * sum(scratch.scattered);
+        }
+    }
+}
+
+void DirectLight::light_surface(const PixelSurface& surface,
+                                const Imath::V2f& shift,
+                                Scratch& scratch) const {
+    Reflection& reflection = scratch.reflection;
+    reflect_light(texels_, surface.point, reflection);
+    const Imath::V3f origin =
+        caster_.offset_origin(surface.point.position, surface.point.geometric_normal);
+    std::vector<float>& open = scratch.open;
+    if (reflection.is_diffuse) {
+        visibility_.compute(origin, shift, reflection.grey, open, scratch.visibility);
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            reflection.grey[i] *= open[i];
+        }
+        return;
+    }
+    visibility_.compute(origin, shift, reflection.projected, open, scratch.visibility);
+    for (auto& plane : reflection.rgb) {
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            plane[i] *= open[i];
+        }
+    }
+    split_visibility(surface, origin, shift, scratch);
+}
+
+// Every part of a split texel has a ray of its own.
+void DirectLight::split_visibility(const PixelSurface& surface,
+                                   const Imath::V3f& origin,
+                                   const Imath::V2f& shift,
+                                   Scratch& scratch) const {
+    constexpr float kPart = 1.0F / LightTexels::kTileSide;
+    Reflection& reflection = scratch.reflection;
+    for (const SplitTexel& split : reflection.split) {
+        DirectionPacket directions;
+        std::uint32_t wanted = 0;
+        for (std::uint32_t part = 0; part < kPacketSize; ++part) {
+            const auto column = static_cast<float>(part % LightTexels::kTileSide);
+            const auto row = static_cast<float>(part / LightTexels::kTileSide);
+            const Imath::V3f d = texels_.cube_point(split.place, (column + shift.x) * kPart,
+                                                    (row + shift.y) * kPart);
+            directions.x[part] = d.x;
+            directions.y[part] = d.y;
+            directions.z[part] = d.z;
+            wanted |= surface.point.is_above_surface(d) ? 1U << part : 0U;
+        }
+        const std::uint32_t free = caster_.unoccluded(origin, directions, wanted);
+        scratch.visibility.rays += static_cast<std::uint64_t>(std::popcount(wanted));
+        for (std::size_t c = 0; c < 3; ++c) {
+            float total = 0;
+            for (std::uint32_t part = 0; part < kPacketSize; ++part) {
+                total += (free >> part) & 1U ? split.rgb[c][part] : 0.0F;
+            }
+            reflection.rgb[c][split.place] = total;
+        }
+    }
+}
+
+}  // namespace relume::bake

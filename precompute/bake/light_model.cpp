@@ -1,0 +1,48 @@
+#include "precompute/bake/light_model.h"
+
+#include "protocol/basis/cubemap.h"
+#include "protocol/basis/haar.h"
+#include "protocol/transport/hash.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace relume::bake {
+
+std::vector<float> natural_light(std::uint32_t n, std::uint64_t seed) {
+    const std::size_t count = basis::texel_count(n);
+    const auto side = static_cast<float>(n);
+    // Each band has 18·4^b wavelets; with amplitude a·2^−b it has energy 18·a², while the
+    // constant has 6·n².
+    const float amplitude = side / std::sqrt(3.0F * static_cast<float>(basis::band_count(n)));
+    std::vector<float> light(count);
+    for (std::size_t j = 0; j < count; ++j) {
+        if (j % (std::size_t{n} * n) == 0) {
+            light[j] = side;
+            continue;
+        }
+        const std::uint64_t bits = transport::mix_bits(transport::mix_bits(seed) + j);
+        // Box and Muller's normal variate.
+        const float radius = std::sqrt(-2.0F * std::log(1.0F - transport::unit_float(bits)));
+        const float angle = 2 * std::numbers::pi_v<float> * transport::unit_float(bits << 32U);
+        const auto band = static_cast<int>(basis::band_from_coefficient(n, j));
+        light[j] = amplitude * std::ldexp(radius * std::cos(angle), -band);
+    }
+    return light;
+}
+
+std::vector<float> sun_light(std::uint32_t n, std::uint64_t seed) {
+    std::vector<float> light(basis::texel_count(n));
+    for (std::uint64_t attempt = 0;; ++attempt) {
+        const std::size_t texel =
+            transport::mix_bits(transport::mix_bits(seed) + attempt) % light.size();
+        if (basis::direction_from_texel(n, basis::texel_from_index(n, texel)).y > 0.2F) {
+            light[texel] = static_cast<float>(light.size());
+            break;
+        }
+    }
+    basis::haar_forward_cubemap(n, light);
+    return light;
+}
+
+}  // namespace relume::bake

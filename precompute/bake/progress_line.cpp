@@ -1,0 +1,57 @@
+#include "precompute/bake/progress_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace relume::bake {
+namespace {
+
+constexpr std::size_t kBarCells = 30;
+
+std::string clock_text(double seconds) {
+    const auto whole = static_cast<long>(seconds + 0.5);
+    return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::FILE* stream)
+    : stream_(stream), terminal_(::isatty(::fileno(stream)) == 1) {}
+
+ProgressLine::~ProgressLine() {
+    if (terminal_ && drawn_) {
+        std::fputc('\n', stream_);
+    }
+}
+
+void ProgressLine::update(const BakeProgress& progress) {
+    const auto now = Clock::now();
+    const bool last = progress.pixels_done == progress.pixels;
+    if (now < next_ && !last) {
+        return;
+    }
+    next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10));
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double done =
+        static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
+    const auto baked = static_cast<double>(progress.pixels_done - progress.pixels_resumed);
+    const auto left = static_cast<double>(progress.pixels - progress.pixels_done);
+    const double rate = seconds > 0 ? baked / seconds : 0;
+    const double rays = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
+    const std::string text = fmt::format(
+        "{:3.0f}%  {:.0f} pixels/s  {:.1f} Mrays/s  {} gone  {} left", 100 * done, rate,
+        rays / 1e6, clock_text(seconds), rate > 0 ? clock_text(left / rate) : "?");
+    if (terminal_) {
+        const auto cells = static_cast<std::size_t>(done * static_cast<double>(kBarCells));
+        std::fprintf(stream_, "\r[%s%s] %s\x1b[K", std::string(cells, '#').c_str(),
+                     std::string(kBarCells - cells, '.').c_str(), text.c_str());
+    } else {
+        std::fprintf(stream_, "%s\n", text.c_str());
+    }
+    std::fflush(stream_);
+    drawn_ = true;
+}
+
+}  // namespace relume::bake

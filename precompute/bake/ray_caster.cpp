@@ -1,0 +1,168 @@
+#include "precompute/bake/ray_caster.h"
+
+#include "precompute/bake/error.h"
+#include "precompute/scene/surface_point.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace relume::bake {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+RTCRay make_ray(const Imath::V3f& origin, const Imath::V3f& direction) {
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tfar = kInfinity;
+    ray.mask = ~0U;
+    return ray;
+}
+
+RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = flags;
+    return context;
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const scene::Scene& scene)
+    : scene_(&scene), device_(rtcNewDevice(nullptr)) {
+    if (!device_) {
+        throw BakeError(fmt::format("Embree gives no device (error {}), expected one",
+                                    static_cast<int>(rtcGetDeviceError(nullptr))));
+    }
+    accelerator_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(accelerator_.get(), RTC_SCENE_FLAG_ROBUST);
+    contexts_.reserve(scene.meshes.size());
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+        contexts_.push_back({scene_, i});
+    }
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+        attach(scene.meshes[i], i);
+    }
+    rtcCommitScene(accelerator_.get());
+    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE) {
+        throw BakeError(fmt::format("Embree cannot build {} triangles: error {}",
+                                    scene.triangle_count(), static_cast<int>(error)));
+    }
+    // A few units in the last place of the largest coordinate there is.
+    const Imath::Box3f bounds = scene.bounds();
+    float largest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        largest = std::max({largest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
+    }
+    offset_ = largest * 0x1p-19F;
+}
+
+void RayCaster::attach(const scene::Mesh& mesh, std::uint32_t index) {
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* positions =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(Imath::V3f), mesh.positions.size());
+    void* triangles =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                sizeof(scene::Triangle), mesh.triangles.size());
+    if (positions == nullptr || triangles == nullptr) {
+        rtcReleaseGeometry(geometry);
+        throw BakeError(fmt::format("no memory for mesh '{}' of {} triangles", mesh.name,
+                                    mesh.triangles.size()));
+    }
+    std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Imath::V3f));
+    std::memcpy(triangles, mesh.triangles.data(),
+                mesh.triangles.size() * sizeof(scene::Triangle));
+    if (scene_->materials[mesh.material].has_holes()) {
+        rtcSetGeometryUserData(geometry, &contexts_[index]);
+        rtcSetGeometryIntersectFilterFunction(geometry, &RayCaster::pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, &RayCaster::pass_holes);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(accelerator_.get(), geometry, index);
+    rtcReleaseGeometry(geometry);
+}
+
+void RayCaster::pass_holes(const RTCFilterFunctionNArguments* arguments) {
+    const auto* context = static_cast<const MeshContext*>(arguments->geometryUserPtr);
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] == 0) {
+            continue;
+        }
+        const Imath::V2f barycentric{RTCHitN_u(arguments->hit, count, i),
+                                     RTCHitN_v(arguments->hit, count, i)};
+        if (!scene::is_solid_at(*context->scene, context->mesh,
+                                RTCHitN_primID(arguments->hit, count, i), barycentric)) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+std::optional<Hit> RayCaster::closest_hit(const Imath::V3f& origin,
+                                          const Imath::V3f& direction) const {
+    RTCRayHit query{};
+    query.ray = make_ray(origin, direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    rtcIntersect1(accelerator_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return std::nullopt;
+    }
+    return Hit{.mesh = query.hit.geomID,
+               .triangle = query.hit.primID,
+               .barycentric = {query.hit.u, query.hit.v},
+               .distance = query.ray.tfar};
+}
+
+bool RayCaster::is_occluded(const Imath::V3f& origin, const Imath::V3f& direction) const {
+    RTCRay ray = make_ray(origin, direction);
+    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    rtcOccluded1(accelerator_.get(), &context, &ray);
+    return ray.tfar < 0;
+}
+
+std::uint32_t RayCaster::unoccluded(const Imath::V3f& origin,
+                                    const DirectionPacket& directions,
+                                    std::uint32_t wanted) const {
+    alignas(64) RTCRay16 rays;
+    alignas(64) std::array<int, kPacketSize> valid;
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        valid[i] = (wanted >> i) & 1U ? -1 : 0;
+        rays.org_x[i] = origin.x;
+        rays.org_y[i] = origin.y;
+        rays.org_z[i] = origin.z;
+        rays.dir_x[i] = directions.x[i];
+        rays.dir_y[i] = directions.y[i];
+        rays.dir_z[i] = directions.z[i];
+        rays.tnear[i] = 0;
+        rays.tfar[i] = kInfinity;
+        rays.time[i] = 0;
+        rays.mask[i] = ~0U;
+        rays.id[i] = 0;
+        rays.flags[i] = 0;
+    }
+    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    rtcOccluded16(valid.data(), accelerator_.get(), &context, &rays);
+    std::uint32_t open = 0;
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        open |= rays.tfar[i] > 0 ? 1U << i : 0U;
+    }
+    return open & wanted;
+}
+
+Imath::V3f RayCaster::offset_origin(const Imath::V3f& position,
+                                    const Imath::V3f& normal) const {
+    return position + offset_ * normal;
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,78 @@
+// Embree behind three questions: what does a ray hit, what is in its way, and which of sixteen
+// directions from one point see the sky.
+#pragma once
+
+#include "precompute/scene/scene.h"
+
+#include <Imath/ImathVec.h>
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace relume::bake {
+
+struct Hit {
+    std::uint32_t mesh = 0;
+    std::uint32_t triangle = 0;
+    Imath::V2f barycentric{0, 0};
+    float distance = 0;  // in lengths of the ray's direction
+};
+
+inline constexpr std::size_t kPacketSize = 16;
+
+// Directions of any length.
+struct alignas(64) DirectionPacket {
+    std::array<float, kPacketSize> x{};
+    std::array<float, kPacketSize> y{};
+    std::array<float, kPacketSize> z{};
+};
+
+// Holes of alpha-masked materials let rays through. Immutable and thread-safe; keeps a
+// reference to the scene.
+class RayCaster {
+  public:
+    // Builds the acceleration structure with the threads of the calling arena. Throws
+    // BakeError when memory runs out.
+    explicit RayCaster(const scene::Scene& scene);
+
+    [[nodiscard]] const scene::Scene& scene() const { return *scene_; }
+
+    [[nodiscard]] std::optional<Hit> closest_hit(const Imath::V3f& origin,
+                                                 const Imath::V3f& direction) const;
+    [[nodiscard]] bool is_occluded(const Imath::V3f& origin, const Imath::V3f& direction) const;
+    // Bit i is set when bit i of `wanted` is set and nothing lies in direction i. Fastest when
+    // the directions are close to each other.
+    [[nodiscard]] std::uint32_t unoccluded(const Imath::V3f& origin,
+                                           const DirectionPacket& directions,
+                                           std::uint32_t wanted) const;
+
+    // A point just off the surface, so that a ray from it does not meet the surface it left.
+    // `normal` points to the ray's side.
+    [[nodiscard]] Imath::V3f offset_origin(const Imath::V3f& position,
+                                           const Imath::V3f& normal) const;
+
+  private:
+    struct MeshContext {
+        const scene::Scene* scene;
+        std::uint32_t mesh;
+    };
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+
+    void attach(const scene::Mesh& mesh, std::uint32_t index);
+    static void pass_holes(const RTCFilterFunctionNArguments* arguments);
+
+    const scene::Scene* scene_;
+    std::vector<MeshContext> contexts_;
+    std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
+    std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> accelerator_;
+    float offset_ = 0;
+};
+
+}  // namespace relume::bake

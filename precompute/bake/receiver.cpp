@@ -1,0 +1,137 @@
+#include "precompute/bake/receiver.h"
+
+#include "protocol/transport/hash.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace relume::bake {
+namespace {
+
+// How much two points of one surface may differ within a pixel.
+constexpr float kSameSurfaceCosine = 0.95F;
+constexpr float kSameSurfaceFootprints = 2.0F;
+
+struct Gathered {
+    PixelSurface surface;
+    Imath::V3f colour_sum{0, 0, 0};
+    float best_distance = 0;  // of the point that stands for it, from the pixel's centre
+    std::uint32_t hits = 0;
+};
+
+Imath::V3f colour_of(const scene::SurfacePoint& point) {
+    return point.bsdf.diffuse_colour() + point.bsdf.specular_colour();
+}
+
+bool same_surface(const PixelSurface& a, const PixelSurface& b) {
+    const Imath::V3f between = b.point.position - a.point.position;
+    return a.material == b.material &&
+           a.point.shading.normal.dot(b.point.shading.normal) > kSameSurfaceCosine &&
+           std::abs(between.dot(a.point.geometric_normal)) <
+               kSameSurfaceFootprints * std::max(a.footprint, b.footprint);
+}
+
+class PixelGatherer {
+  public:
+    PixelGatherer(const RayCaster& caster, const scene::Camera& camera)
+        : caster_(caster), camera_(camera) {}
+
+    void cast(float x, float y, float centre_distance) {
+        ++casts_;
+        const Imath::V3f direction = camera_.direction_from_pixel(x, y);
+        const auto hit = caster_.closest_hit(camera_.eye(), direction);
+        if (!hit) {
+            return;
+        }
+        PixelSurface surface;
+        surface.point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
+                                             hit->barycentric, direction);
+        surface.material = caster_.scene().meshes[hit->mesh].material;
+        surface.footprint = hit->distance * 2 * camera_.tan_half_height() /
+                            static_cast<float>(camera_.height());
+        depth_sum_ += hit->distance * direction.dot(camera_.forward());
+        albedo_sum_ += colour_of(surface.point);
+        ++hits_;
+        gather(surface, centre_distance);
+    }
+
+    [[nodiscard]] PixelView view() && {
+        PixelView view;
+        if (hits_ == 0) {
+            return view;
+        }
+        const auto casts = static_cast<float>(casts_);
+        view.coverage = static_cast<float>(hits_) / casts;
+        view.depth = depth_sum_ / static_cast<float>(hits_);
+        view.albedo = albedo_sum_ / casts;
+        for (Gathered& one : gathered_) {
+            one.surface.share = static_cast<float>(one.hits) / casts;
+            const Imath::V3f own = colour_of(one.surface.point);
+            for (int c = 0; c < 3; ++c) {
+                one.surface.tint[c] =
+                    own[c] > 0 ? one.colour_sum[c] / (own[c] * static_cast<float>(one.hits))
+                               : 1.0F;
+            }
+            view.surfaces.push_back(one.surface);
+        }
+        return view;
+    }
+
+  private:
+    void gather(const PixelSurface& surface, float centre_distance) {
+        auto found = std::find_if(gathered_.begin(), gathered_.end(), [&](const Gathered& one) {
+            return same_surface(one.surface, surface);
+        });
+        if (found == gathered_.end()) {
+            gathered_.push_back({.surface = surface, .best_distance = centre_distance});
+            found = gathered_.end() - 1;
+        } else if (centre_distance < found->best_distance) {
+            found->surface = surface;
+            found->best_distance = centre_distance;
+        }
+        found->colour_sum += colour_of(surface.point);
+        ++found->hits;
+    }
+
+    const RayCaster& caster_;
+    const scene::Camera& camera_;
+    std::vector<Gathered> gathered_;
+    Imath::V3f albedo_sum_{0, 0, 0};
+    float depth_sum_ = 0;
+    std::uint32_t hits_ = 0;
+    std::uint32_t casts_ = 0;
+};
+
+}  // namespace
+
+PixelView view_pixel(const RayCaster& caster,
+                     const scene::Camera& camera,
+                     std::uint32_t x,
+                     std::uint32_t y,
+                     std::uint32_t pixel_samples,
+                     std::uint64_t seed) {
+    PixelGatherer gatherer(caster, camera);
+    const auto left = static_cast<float>(x);
+    const auto top = static_cast<float>(y);
+    gatherer.cast(left + 0.5F, top + 0.5F, 0);
+    if (pixel_samples > 1) {
+        const auto columns =
+            static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<float>(pixel_samples))));
+        const std::uint32_t rows = (pixel_samples + columns - 1) / columns;
+        const std::uint64_t key =
+            transport::mix_bits(seed ^ (std::uint64_t{y} * camera.width() + x));
+        for (std::uint32_t i = 0; i < pixel_samples; ++i) {
+            const std::uint64_t bits = transport::mix_bits(key + i);
+            const float dx = (static_cast<float>(i % columns) + transport::unit_float(bits)) /
+                             static_cast<float>(columns);
+            const float dy =
+                (static_cast<float>(i / columns) + transport::unit_float(bits << 32U)) /
+                static_cast<float>(rows);
+            gatherer.cast(left + dx, top + dy, std::hypot(dx - 0.5F, dy - 0.5F));
+        }
+    }
+    return std::move(gatherer).view();
+}
+
+}  // namespace relume::bake

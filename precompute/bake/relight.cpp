@@ -1,0 +1,129 @@
+#include "precompute/bake/relight.h"
+
+#include "precompute/bake/error.h"
+#include "protocol/basis/cubemap.h"
+#include "protocol/basis/haar.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <memory>
+
+namespace relume::bake {
+namespace {
+
+using transport::kBlockSize;
+
+// Adds the columns of one shard to `pixels`, [blocks][3][256].
+void add_shard(const transport::Transport& transport,
+               const transport::ShardReader& shard,
+               const CubemapLight& coefficients,
+               std::vector<double>& pixels) {
+    const transport::ColourModel& colour = transport.manifest().colour;
+    transport::DecodedCell values;
+    for (std::size_t j = 0; j < transport.column_count(); ++j) {
+        for (std::uint32_t k = 0; k < colour.channels; ++k) {
+            const transport::SegmentView segment = shard.segment(j, k);
+            if (segment.empty()) {
+                continue;
+            }
+            std::array<double, 3> factor{};
+            for (std::size_t c = 0; c < 3; ++c) {
+                factor[c] =
+                    double{coefficients[c][j]} * colour.matrix[c][k] * transport.step(j, k);
+            }
+            const std::uint8_t* cell = segment.cells;
+            for (std::uint32_t block = 0; block < shard.block_count(); ++block) {
+                const transport::CellTag tag = segment.tag(block);
+                if (tag == transport::CellTag::empty) {
+                    continue;
+                }
+                cell = transport::decode_cell(tag, cell, values);
+                for (std::size_t c = 0; c < 3; ++c) {
+                    double* target =
+                        &pixels[((shard.first_block() + block) * 3 + c) * kBlockSize];
+                    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                        target[slot] += factor[c] * values[slot];
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+RelitImage relight(const transport::Transport& transport, const CubemapLight& light) {
+    const transport::Manifest& manifest = transport.manifest();
+    CubemapLight coefficients = light;
+    for (auto& plane : coefficients) {
+        if (plane.size() != transport.column_count()) {
+            throw BakeError(fmt::format("the light has {} texels, expected {}", plane.size(),
+                                        transport.column_count()));
+        }
+        basis::haar_forward_cubemap(manifest.face_resolution, plane);
+    }
+    std::vector<double> pixels(std::size_t{manifest.block_count()} * 3 * kBlockSize);
+    tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {
+        add_shard(transport, transport.shards()[i], coefficients, pixels);
+    });
+    RelitImage image{.width = manifest.image.width, .height = manifest.image.height, .rgb = {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+        image.rgb[c].resize(std::size_t{image.width} * image.height);
+        for (std::uint32_t y = 0; y < image.height; ++y) {
+            for (std::uint32_t x = 0; x < image.width; ++x) {
+                const transport::Receiver at = manifest.image.receiver_from_pixel(x, y);
+                const std::size_t i = (std::size_t{at.block} * 3 + c) * kBlockSize + at.slot;
+                image.rgb[c][std::size_t{y} * image.width + x] =
+                    pixels[i] * transport.tint()[i];
+            }
+        }
+    }
+    return image;
+}
+
+CubemapLight read_cubemap_strip(const std::filesystem::path& path,
+                                std::uint32_t face_resolution) {
+    const auto file = OIIO::ImageInput::open(path.string());
+    if (!file) {
+        throw BakeError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
+    }
+    const OIIO::ImageSpec& spec = file->spec();
+    const auto n = static_cast<int>(face_resolution);
+    const bool across = spec.width == 6 * n && spec.height == n;
+    const bool down = spec.width == n && spec.height == 6 * n;
+    if (!across && !down) {
+        throw BakeError(fmt::format("{}: {}×{} pixels, expected a cubemap strip of {}×{}",
+                                    path.string(), spec.width, spec.height, 6 * n, n));
+    }
+    if (spec.nchannels < 3) {
+        throw BakeError(
+            fmt::format("{}: {} channels, expected R, G, B", path.string(), spec.nchannels));
+    }
+    const std::size_t count = basis::texel_count(face_resolution);
+    std::vector<float> rgb(count * 3);
+    if (!file->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data())) {
+        throw BakeError(fmt::format("{}: {}", path.string(), file->geterror()));
+    }
+    CubemapLight light;
+    for (std::size_t c = 0; c < 3; ++c) {
+        light[c].resize(count);
+        for (std::size_t texel = 0; texel < count; ++texel) {
+            const basis::Texel at = basis::texel_from_index(face_resolution, texel);
+            const auto face = static_cast<std::size_t>(at.face);
+            const std::size_t pixel =
+                across ? (at.row * std::size_t{6} + face) * face_resolution + at.column : texel;
+            light[c][texel] = rgb[pixel * 3 + c];
+            if (!std::isfinite(light[c][texel])) {
+                throw BakeError(
+                    fmt::format("{}: texel {} of face {} is not finite, expected radiance",
+                                path.string(), texel, face));
+            }
+        }
+    }
+    return light;
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,32 @@
+// The dense product T·L, computed plainly and in double precision from the stored transport:
+// what any cleverer way of relighting is checked against.
+#pragma once
+
+#include "protocol/transport/transport.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace relume::bake {
+
+// Radiance of the 6·n² texels, row-major (basis/cubemap.h), in red, green and blue.
+using CubemapLight = std::array<std::vector<float>, 3>;
+
+struct RelitImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::array<std::vector<double>, 3> rgb;  // height·width, linear, premultiplied by coverage
+};
+
+// Throws BakeError when the light's size is not the transport's.
+[[nodiscard]] RelitImage relight(const transport::Transport& transport,
+                                 const CubemapLight& light);
+
+// A strip of the six faces, 6n×n or n×6n, of radiance, in any format OpenImageIO reads. Throws
+// BakeError naming the file, what was found and what was expected.
+[[nodiscard]] CubemapLight read_cubemap_strip(const std::filesystem::path& path,
+                                              std::uint32_t face_resolution);
+
+}  // namespace relume::bake

@@ -1,0 +1,58 @@
+// One pixel's transport, as coefficients of the light in red, green and blue.
+#pragma once
+
+#include "precompute/bake/direct_light.h"
+#include "precompute/bake/path_pool.h"
+#include "precompute/bake/shrinkage.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace relume::bake {
+
+struct CoefficientRow {
+    std::array<std::vector<float>, 3> rgb;  // N values each
+    Imath::V3f direct_white{0, 0, 0};       // response to a white light, direct part
+    Imath::V3f white{0, 0, 0};              // all of it
+};
+
+class RowBaker {
+  public:
+    RowBaker(const RayCaster& caster,
+             const LightTexels& texels,
+             const BakeParameters& parameters);
+
+    // One per thread.
+    struct Scratch {
+        DirectLight::Scratch direct;
+        TexelRow texels;
+        std::vector<Contribution> contributions;
+        std::vector<Coefficient> coefficients;
+    };
+
+    // `pool` may be null: then the pixel's own paths are all there is.
+    void bake(const TracedPixel& pixel,
+              std::uint32_t x,
+              std::uint32_t y,
+              const PathPool* pool,
+              CoefficientRow& row,
+              Scratch& scratch) const;
+
+  private:
+    void add_indirect(const TracedPixel& pixel,
+                      std::uint32_t x,
+                      std::uint32_t y,
+                      const PathPool* pool,
+                      CoefficientRow& row,
+                      Scratch& scratch) const;
+
+    std::uint32_t face_resolution_;
+    float shrinkage_;
+    std::uint64_t seed_;
+    DirectLight direct_;
+};
+
+}  // namespace relume::bake

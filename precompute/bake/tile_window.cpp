@@ -1,0 +1,91 @@
+#include "precompute/bake/tile_window.h"
+
+#include "precompute/bake/error.h"
+#include "protocol/transport/format.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace relume::bake {
+
+TileWindow::TileWindow(const RayCaster& caster,
+                       const scene::Camera& camera,
+                       const BakeParameters& parameters)
+    : caster_(caster),
+      camera_(camera),
+      parameters_(parameters),
+      tracer_(caster,
+              parameters.face_resolution,
+              parameters.bounces,
+              parameters.samples,
+              parameters.seed) {
+    // The tallest window: the tile rows of a shard and the pool's reach on both sides.
+    const std::uint32_t tiles_x =
+        transport::TileGrid{camera.width(), camera.height()}.tiles_x();
+    const std::uint32_t tile_rows =
+        std::max(1U, transport::kMaxBlocksPerShard / std::max(tiles_x, 1U));
+    const std::uint64_t rows = std::uint64_t{tile_rows} * transport::kTileSide +
+                               2 * std::uint64_t{parameters.pool_radius};
+    const std::uint64_t bytes = rows * camera.width() * parameters.samples * sizeof(Escape);
+    if (parameters.bounces > 0 && bytes > kMaxPathBytes) {
+        throw BakeError(fmt::format(
+            "samples is {}: {} rows of {} pixels would keep {} MiB of paths, expected at most "
+            "{} MiB; take fewer samples, a smaller pool or a narrower image",
+            parameters.samples, rows, camera.width(), bytes >> 20U, kMaxPathBytes >> 20U));
+    }
+}
+
+std::uint64_t TileWindow::move_to(std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t reach = parameters_.bounces > 0 ? parameters_.pool_radius : 0;
+    const std::uint32_t top = first > reach ? first - reach : 0;
+    const std::uint32_t end = std::min(last + reach, camera_.height());
+    if (rows_.empty() || top >= bottom()) {
+        rows_.clear();
+        top_ = top;
+    }
+    for (; top_ < top; ++top_) {
+        rows_.pop_front();
+    }
+    const std::uint32_t missing = bottom();
+    for (std::uint32_t y = missing; y < end; ++y) {
+        rows_.emplace_back(camera_.width());
+    }
+    if (missing >= end) {
+        return 0;
+    }
+    std::atomic<std::uint64_t> rays = 0;
+    tbb::parallel_for(
+        tbb::blocked_range2d<std::uint32_t>(missing, end, 4, 0, camera_.width(), 16),
+        [&](const tbb::blocked_range2d<std::uint32_t>& range) {
+            std::uint64_t cast = 0;
+            for (std::uint32_t y = range.rows().begin(); y != range.rows().end(); ++y) {
+                for (std::uint32_t x = range.cols().begin(); x != range.cols().end(); ++x) {
+                    TracedPixel& pixel = rows_[y - top_][x];
+                    pixel = trace(x, y);
+                    for (const SurfacePaths& paths : pixel.paths) {
+                        cast += paths.rays;
+                    }
+                }
+            }
+            rays += cast;
+        });
+    return rays;
+}
+
+TracedPixel TileWindow::trace(std::uint32_t x, std::uint32_t y) const {
+    TracedPixel pixel;
+    pixel.view =
+        view_pixel(caster_, camera_, x, y, parameters_.pixel_samples, parameters_.seed);
+    if (parameters_.bounces > 0) {
+        for (std::uint32_t i = 0; i < pixel.view.surfaces.size(); ++i) {
+            pixel.paths.push_back(tracer_.trace(pixel.view.surfaces[i], i, x, y));
+        }
+    }
+    return pixel;
+}
+
+}  // namespace relume::bake

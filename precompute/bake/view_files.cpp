@@ -1,0 +1,119 @@
+#include "precompute/bake/view_files.h"
+
+#include "precompute/bake/error.h"
+#include "precompute/bake/image_file.h"
+#include "precompute/bake/receiver.h"
+#include "precompute/bake/relight.h"
+#include "protocol/basis/cubemap.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume::bake {
+namespace {
+
+constexpr std::uint32_t kThumbnailSide = 384;
+
+// A soft key light over the viewer's left shoulder, under a pale sky.
+CubemapLight thumbnail_light(std::uint32_t n, const transport::CameraRecord& camera) {
+    const Imath::V3f key =
+        (camera.up * 0.9F - camera.right * 0.7F - camera.forward * 0.5F).normalized();
+    const Imath::V3f key_colour{9.0F, 8.2F, 7.0F};
+    const Imath::V3f sky_colour{0.45F, 0.58F, 0.8F};
+    const Imath::V3f ground_colour{0.22F, 0.2F, 0.18F};
+    CubemapLight light;
+    for (auto& plane : light) {
+        plane.resize(basis::texel_count(n));
+    }
+    for (std::size_t texel = 0; texel < light[0].size(); ++texel) {
+        const Imath::V3f direction =
+            basis::direction_from_texel(n, basis::texel_from_index(n, texel));
+        const float height = std::clamp(0.5F + 2 * direction.y, 0.0F, 1.0F);
+        const float in_key = std::clamp((direction.dot(key) - 0.9F) / 0.06F, 0.0F, 1.0F);
+        const Imath::V3f radiance =
+            ground_colour + (sky_colour - ground_colour) * height + key_colour * in_key;
+        for (std::size_t c = 0; c < 3; ++c) {
+            light[c][texel] = radiance[static_cast<int>(c)];
+        }
+    }
+    return light;
+}
+
+// The contract's filmic curve (protocol/README.md §3.2), then sRGB.
+float displayed(float x) {
+    const float film =
+        std::clamp(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 0.0F, 1.0F);
+    return film <= 0.0031308F ? 12.92F * film : 1.055F * std::pow(film, 1 / 2.4F) - 0.055F;
+}
+
+void write_thumbnail(const std::filesystem::path& directory, const ViewImages& view) {
+    const auto transport = transport::Transport::open(directory);
+    const transport::Manifest& manifest = transport->manifest();
+    const RelitImage relit =
+        relight(*transport, thumbnail_light(manifest.face_resolution, manifest.camera));
+    constexpr float kBackdrop = 0.12F;
+    std::vector<float> pixels;
+    for (std::size_t i = 0; i < view.coverage.size(); ++i) {
+        for (const auto& plane : relit.rgb) {
+            pixels.push_back(static_cast<float>(plane[i]) + (1 - view.coverage[i]) * kBackdrop);
+        }
+    }
+    const float scale =
+        std::min(1.0F, static_cast<float>(kThumbnailSide) /
+                           static_cast<float>(std::max(view.width, view.height)));
+    const auto scaled = [scale](std::uint32_t side) {
+        return std::max(
+            1U, static_cast<std::uint32_t>(std::lround(scale * static_cast<float>(side))));
+    };
+    FloatImage image{view.width, view.height, 3, std::move(pixels)};
+    image = resized(image, scaled(view.width), scaled(view.height));
+    for (float& value : image.values) {
+        value = displayed(std::max(value, 0.0F));
+    }
+    write_png(directory / "view" / "thumbnail.png", image);
+}
+
+}  // namespace
+
+ViewImages view_images(const RayCaster& caster,
+                       const scene::Camera& camera,
+                       const BakeParameters& parameters) {
+    const std::size_t count = std::size_t{parameters.width} * parameters.height;
+    ViewImages view{.width = parameters.width,
+                    .height = parameters.height,
+                    .coverage = std::vector<float>(count),
+                    .albedo = std::vector<Imath::V3f>(count),
+                    .depth = std::vector<float>(count)};
+    tbb::parallel_for(std::uint32_t{0}, parameters.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < parameters.width; ++x) {
+            const PixelView pixel =
+                view_pixel(caster, camera, x, y, parameters.pixel_samples, parameters.seed);
+            const std::size_t i = std::size_t{y} * parameters.width + x;
+            view.coverage[i] = pixel.coverage;
+            view.albedo[i] = pixel.albedo;
+            view.depth[i] = pixel.depth;
+        }
+    });
+    return view;
+}
+
+void write_view_files(const std::filesystem::path& directory, const ViewImages& view) {
+    std::error_code error;
+    std::filesystem::create_directories(directory / "view", error);
+    if (error) {
+        throw BakeError(fmt::format("{}: cannot create: {}", (directory / "view").string(),
+                                    error.message()));
+    }
+    std::vector<float> albedo;
+    for (const Imath::V3f& colour : view.albedo) {
+        albedo.insert(albedo.end(), {colour.x, colour.y, colour.z});
+    }
+    write_exr(directory / "view" / "albedo.exr", {view.width, view.height, 3, albedo});
+    write_exr(directory / "view" / "depth.exr", {view.width, view.height, 1, view.depth});
+    write_thumbnail(directory, view);
+}
+
+}  // namespace relume::bake

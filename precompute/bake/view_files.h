@@ -1,0 +1,33 @@
+// What people and clients look at beside the transport: albedo, depth, a thumbnail.
+#pragma once
+
+#include "precompute/bake/parameters.h"
+#include "precompute/bake/ray_caster.h"
+#include "precompute/scene/camera.h"
+
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace relume::bake {
+
+// height·width each.
+struct ViewImages {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<float> coverage;
+    std::vector<Imath::V3f> albedo;  // premultiplied by coverage
+    std::vector<float> depth;        // along the view axis; 0 where nothing is seen
+};
+
+[[nodiscard]] ViewImages view_images(const RayCaster& caster,
+                                     const scene::Camera& camera,
+                                     const BakeParameters& parameters);
+
+// Writes view/albedo.exr, view/depth.exr and view/thumbnail.png, which is relit from the
+// finished transport in `directory`. Throws BakeError.
+void write_view_files(const std::filesystem::path& directory, const ViewImages& view);
+
+}  // namespace relume::bake
