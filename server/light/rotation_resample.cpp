@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -43,6 +43,10 @@ void resample(const PrefilteredEnvironment& environment,
         throw std::invalid_argument(
             fmt::format("environment is prefiltered for face resolution {}, the cubemap has {}",
                         environment.face_resolution(), n));
+    }
+    // Not a number would become an index out of bounds further down.
+    if (!(rotation.length() > 0 && std::isfinite(rotation.length()))) {
+        throw std::invalid_argument("rotation is not a quaternion of finite, non-zero length");
     }
     const ResampleJob job{
         .texels = environment.padded_texels().data(),
