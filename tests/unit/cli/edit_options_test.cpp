@@ -1,0 +1,81 @@
+#include "client/cli/edit_options.h"
+
+#include "client/cli/client_error.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace relume::cli {
+namespace {
+
+using nlohmann::json;
+
+TEST(EditOptions, NothingAskedIsAnEmptyPatch) {
+    EXPECT_EQ(patch_from_options({}, ""), json::object());
+}
+
+TEST(EditOptions, AllTogether) {
+    const EditOptions options{.rotate = "90,-5.5,1e1",
+                              .lights = {"key:0,1,0:5:10,9,8", "rim:-1,0,0:0.5:1,1,1"},
+                              .patch = R"({"display":{"exposure_stops":1}})",
+                              .method = "bi",
+                              .priority = "area",
+                              .budget_ms = 4,
+                              .coefficients = {}};
+    EXPECT_EQ(patch_from_options(options, "city"), json::parse(R"({
+        "environment": {"name": "city"},
+        "rotation": {"yaw_degrees": 90, "pitch_degrees": -5.5, "roll_degrees": 10},
+        "lights": {
+            "key": {"direction": [0,1,0], "angular_radius_degrees": 5, "radiance": [10,9,8]},
+            "rim": {"direction": [-1,0,0], "angular_radius_degrees": 0.5, "radiance": [1,1,1]}},
+        "strategy": {"method": "bi", "priority": "area"},
+        "budget": {"milliseconds": 4},
+        "display": {"exposure_stops": 1}})"));
+}
+
+TEST(EditOptions, ThePatchGoesBeforeTheOthers) {
+    const EditOptions options{
+        .rotate = "",
+        .lights = {"key:0,1,0:5:10,9,8"},
+        .patch = R"({"lights":{"key":{"gain":2,"angular_radius_degrees":6}}})",
+        .method = "",
+        .priority = "",
+        .budget_ms = {},
+        .coefficients = 30};
+    const json patch = patch_from_options(options, "");
+    EXPECT_EQ(patch.at("lights").at("key").at("angular_radius_degrees"), 6);
+    EXPECT_EQ(patch.at("lights").at("key").at("gain"), 2);
+    EXPECT_EQ(patch.at("lights").at("key").at("direction"), json({0, 1, 0}));
+    EXPECT_EQ(patch.at("budget"), json({{"coefficients", 30}}));
+}
+
+bool refused(const EditOptions& options) {
+    try {
+        static_cast<void>(patch_from_options(options, ""));
+    } catch (const ClientError&) {
+        return true;
+    }
+    return false;
+}
+
+TEST(EditOptions, WrongFormsAreNamed) {
+    for (const char* text : {"1,2", "1,2,3,4", "a,b,c", "1,2,", "1 ,2,3", ",,", "1;2;3"}) {
+        EditOptions options;
+        options.rotate = text;
+        EXPECT_TRUE(refused(options)) << text;
+    }
+    for (const char* text : {"key", "key:0,1,0:5", "key:0,1:5:1,1,1", "key:0,1,0:x:1,1,1",
+                             "key:0,1,0:5:1,1,1:2", "key:0,1,0:5,6:1,1,1"}) {
+        EditOptions options;
+        options.lights = {text};
+        EXPECT_TRUE(refused(options)) << text;
+    }
+    for (const char* text : {"{", "[]", "1", "{\"a\":1,\"a\":2}", "@/no/such/file"}) {
+        EditOptions options;
+        options.patch = text;
+        EXPECT_TRUE(refused(options)) << text;
+    }
+}
+
+}  // namespace
+}  // namespace relume::cli
