@@ -1,0 +1,54 @@
+// What each path answers (protocol/README.md §3).
+#pragma once
+
+#include "server/net/access.h"
+#include "server/net/environment_library.h"
+#include "server/net/http_message.h"
+#include "server/net/metrics.h"
+#include "server/net/readiness.h"
+#include "server/net/scene_library.h"
+#include "server/net/static_files.h"
+
+#include <string>
+#include <string_view>
+
+namespace relume::net {
+
+// Thread-safe.
+class HttpRoutes {
+  public:
+    HttpRoutes(const SceneLibrary& scenes,
+               const EnvironmentLibrary& environments,
+               const StaticFiles& files,
+               const Access& access,
+               const Readiness& readiness,
+               Metrics& metrics);
+
+    // True if answering may read files or decode an image, which is not for threads that serve
+    // sockets.
+    [[nodiscard]] static bool takes_long(const HttpRequest& request);
+    // Everything but uploads and upgrades.
+    [[nodiscard]] HttpReply answer(const HttpRequest& request) const;
+    // The name in /session/NAME, or nothing.
+    [[nodiscard]] static std::optional<std::string> room_of(const HttpRequest& request);
+    [[nodiscard]] static bool is_upload(const HttpRequest& request);
+
+  private:
+    [[nodiscard]] HttpReply answer_api(const HttpRequest& request) const;
+    [[nodiscard]] HttpReply scenes() const;
+    [[nodiscard]] HttpReply environments() const;
+    [[nodiscard]] HttpReply thumbnail(std::string_view name) const;
+    [[nodiscard]] HttpReply preview(std::string_view name) const;
+    [[nodiscard]] HttpReply file(const HttpRequest& request) const;
+    [[nodiscard]] HttpReply readyz() const;
+    [[nodiscard]] HttpReply metrics() const;
+
+    const SceneLibrary& scenes_;
+    const EnvironmentLibrary& environments_;
+    const StaticFiles& files_;
+    const Access& access_;
+    const Readiness& readiness_;
+    Metrics& metrics_;
+};
+
+}  // namespace relume::net

@@ -1,0 +1,82 @@
+// What waits to be sent to one client. Its size is bounded whatever the client does.
+//
+// Nothing queues up behind a slow reader: unsent changes merge into one, of the viewer count
+// only the last is kept, and the newest image replaces an unsent one. At most
+// `images_in_flight` images are sent before the client acknowledges one.
+#pragma once
+
+#include "protocol/wire/messages.h"
+#include "server/net/image_frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace relume::net {
+
+enum class ImageInterest : std::uint8_t { all, settled };
+
+// Thread-safe. Rooms put, one connection takes.
+class Outbox {
+  public:
+    // The last item of all.
+    struct Close {
+        wire::CloseCode code;
+    };
+    using Item = std::variant<std::string, SharedImageFrame, Close>;
+
+    static constexpr std::size_t kMaxQueuedErrors = 32;
+
+    Outbox(ImageInterest interest, std::size_t images_in_flight);
+
+    // Called (from any thread, without locks held) when there is something to take again after
+    // `take` had nothing. Set before the outbox is shared.
+    void set_wake(std::function<void()> wake) { wake_ = std::move(wake); }
+
+    void put_snapshot(std::string text);
+    void put_change(const wire::Change& change);
+    // More than kMaxQueuedErrors unsent ones close the connection (too_many_errors).
+    void put_error(const wire::ErrorMessage& error);
+    void put_viewers(std::uint32_t count);
+    // Ignores what the client is not interested in. True if an unsent image was dropped for it.
+    bool put_image(SharedImageFrame image);
+    // Ends with this code; the first call counts. When the server shuts down, or there were
+    // too many errors, all else that may be sent goes before.
+    void close(wire::CloseCode code);
+
+    // Image `sequence` and all before it have been received.
+    void acknowledge(std::uint64_t sequence);
+    // Whether an image of an unsettled state would be sent without waiting for an
+    // acknowledgement.
+    [[nodiscard]] bool wants_moving_image() const;
+    [[nodiscard]] ImageInterest interest() const { return interest_; }
+
+    // The next thing to send: snapshot, change, errors, viewers, image, close.
+    [[nodiscard]] std::optional<Item> take();
+
+  private:
+    class WakeOnExit;
+    [[nodiscard]] std::optional<Item> take_locked();
+
+    const ImageInterest interest_;
+    const std::size_t images_in_flight_;
+    std::function<void()> wake_;
+
+    mutable std::mutex mutex_;
+    std::optional<std::string> snapshot_;
+    std::optional<wire::Change> change_;
+    std::deque<wire::ErrorMessage> errors_;
+    std::optional<std::uint32_t> viewers_;
+    SharedImageFrame image_;
+    std::deque<std::uint64_t> unacknowledged_;  // sequence numbers, ascending
+    std::optional<wire::CloseCode> close_;
+    bool closed_ = false;  // `Close` has been taken
+    bool taker_waits_ = false;
+};
+
+}  // namespace relume::net

@@ -1,0 +1,182 @@
+#include "server/net/relighter.h"
+
+#include <Imath/ImathMath.h>
+
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace relume::net {
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+light::AreaLight area_light_from(const wire::AreaLight& light) {
+    return {.direction = Imath::V3f(light.direction),
+            .angular_radius_radians =
+                static_cast<float>(light.angular_radius_degrees * kRadiansPerDegree),
+            .radiance = Imath::V3f(light.radiance * light.tint * light.gain)};
+}
+
+bool same_rig(const wire::SessionState& a, const wire::SessionState& b) {
+    return a.environment == b.environment && a.blend == b.blend && a.rotation == b.rotation &&
+           a.lights == b.lights;
+}
+
+// Black, and a problem to report, if it cannot be decoded.
+std::shared_ptr<const light::PrefilteredEnvironment> prefiltered(
+    const std::shared_ptr<Environment>& environment,
+    std::uint32_t face_resolution,
+    const char* path,
+    std::vector<wire::ErrorMessage>& problems) {
+    if (!environment) {
+        return nullptr;
+    }
+    try {
+        return environment->prefiltered(face_resolution);
+    } catch (const light::EnvironmentError& failure) {
+        problems.push_back({.code = wire::ErrorCode::bad_image,
+                            .message = "the environment cannot be decoded and is shown black",
+                            .path = path,
+                            .found = failure.found().empty() ? environment->description().name
+                                                             : failure.found(),
+                            .expected = failure.expected().empty() ? "a readable HDR image"
+                                                                   : failure.expected(),
+                            .edit_id = {}});
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+Relighter::Relighter(std::shared_ptr<const ServedScene> scene, Metrics& metrics)
+    : scene_(std::move(scene)),
+      metrics_(metrics),
+      session_(scene_->engine, wire::Strategy{}),
+      composer_(scene_->sky, scene_->engine->image().width, scene_->engine->image().height) {}
+
+std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& state,
+                                                     const NamedEnvironments& environments) {
+    const Clock::time_point begin = Clock::now();
+    std::vector<wire::ErrorMessage> problems;
+    const bool rig_changed =
+        !state_ || environments_ != environments || !same_rig(*state_, state);
+    if (rig_changed) {
+        set_rig(state, environments, problems);
+    }
+    const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
+    if (!state_ || state_->background != state.background ||
+        (rig_changed && sees_environment)) {
+        composer_.set_background(state.background, rig_);
+        composed_ = false;
+    }
+    if (!state_ || state_->display != state.display) {
+        display_.emplace(state.display);
+    }
+    session_.set_strategy(state.strategy);
+    state_ = state;
+    environments_ = environments;
+    image_changed_ = true;
+    relight_time_ += Clock::now() - begin;
+    return problems;
+}
+
+void Relighter::set_rig(const wire::SessionState& state,
+                        const NamedEnvironments& environments,
+                        std::vector<wire::ErrorMessage>& problems) {
+    const std::uint32_t n = scene_->engine->face_resolution();
+    rig_.environment = prefiltered(environments.environment, n, "/environment/name", problems);
+    rig_.blend = prefiltered(environments.blend, n, "/blend/name", problems);
+    rig_.blend_amount = environments.blend ? static_cast<float>(state.blend.amount) : 0.0F;
+    rig_.rotation = Imath::Quatf(state.rotation);
+    rig_.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
+    rig_.lights.clear();
+    for (const auto& [id, light] : state.lights) {
+        rig_.lights.push_back(area_light_from(light));
+    }
+    light::evaluate(rig_, n, cubemap_);
+    light::lighting_coefficients(cubemap_, coefficients_);
+    session_.set_lighting(coefficients_);
+}
+
+void Relighter::advance() {
+    const Clock::time_point begin = Clock::now();
+    const engine::StepReport step = session_.advance(state_->budget);
+    const Clock::duration spent = Clock::now() - begin;
+    metrics_.count_step(step, seconds(spent));
+    relight_time_ += spent;
+    applied_ += step.applied;
+    remaining_ = step.remaining;
+    if (step.image_changed) {
+        composed_ = false;
+        image_changed_ = true;
+    }
+}
+
+void Relighter::compose_if_changed() {
+    compose_time_ = {};
+    if (composed_) {
+        return;
+    }
+    const Clock::time_point begin = Clock::now();
+    composer_.compose(session_);
+    compose_time_ = Clock::now() - begin;
+    composed_ = true;
+}
+
+template <typename AppendPayload>
+SharedImageFrame Relighter::encode(const ImageStamp& stamp,
+                                   wire::ImageEncoding encoding,
+                                   const AppendPayload& append_payload) {
+    compose_if_changed();
+    const Clock::time_point begin = Clock::now();
+    auto frame = std::make_shared<ImageFrame>();
+    frame->bytes.resize(wire::kImageHeaderBytes);
+    append_payload(frame->bytes);
+    const Clock::duration encode_time = Clock::now() - begin;
+    const transport::TileGrid& image = scene_->engine->image();
+    const bool exact = session_.exact();
+    frame->header = {
+        .encoding = encoding,
+        .width = image.width,
+        .height = image.height,
+        .revision = stamp.revision,
+        .sequence = stamp.sequence,
+        .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),
+        .exact = exact,
+        .has_alpha = encoding == wire::ImageEncoding::half_planes && composer_.has_alpha(),
+        .edit_to_image_ms = static_cast<float>(milliseconds(begin - stamp.edit_read_at)),
+        .relight_ms = static_cast<float>(milliseconds(relight_time_)),
+        .encode_ms = static_cast<float>(milliseconds(encode_time)),
+        .coefficients_applied = applied_,
+        .payload_bytes =
+            static_cast<std::uint32_t>(frame->bytes.size() - wire::kImageHeaderBytes),
+        .coefficients_remaining = exact ? 0 : remaining_};
+    const auto header = wire::encode_image_header(frame->header);
+    std::copy(header.begin(), header.end(), frame->bytes.begin());
+    metrics_.count_image(encoding, frame->bytes.size(), seconds(compose_time_),
+                         seconds(encode_time));
+    image_changed_ = false;
+    relight_time_ = {};
+    applied_ = 0;
+    return frame;
+}
+
+SharedImageFrame Relighter::encode_jpeg(const ImageStamp& stamp, int quality) {
+    return encode(stamp, wire::ImageEncoding::jpeg, [&](std::vector<std::byte>& out) {
+        codes_.resize(composer_.rgb().size());
+        composer_.write_codes(*display_, codes_);
+        const transport::TileGrid& image = scene_->engine->image();
+        const auto payload = jpeg_.encode(codes_, image.width, image.height, quality);
+        out.insert(out.end(), payload.begin(), payload.end());
+    });
+}
+
+SharedImageFrame Relighter::encode_half(const ImageStamp& stamp) {
+    return encode(stamp, wire::ImageEncoding::half_planes, [&](std::vector<std::byte>& out) {
+        half_.append_to(out, composer_.half_image());
+    });
+}
+
+}  // namespace relume::net

@@ -1,0 +1,108 @@
+#include "server/net/scene_library.h"
+
+#include "protocol/transport/transport.h"
+#include "protocol/wire/names.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace relume::net {
+
+namespace fs = std::filesystem;
+
+void SceneLibrary::open_all(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> directories;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().extension() == ".relume" && entry->is_directory(error)) {
+            directories.push_back(entry->path());
+        }
+    }
+    if (error) {
+        throw std::runtime_error(
+            fmt::format("cannot list the scenes in {}: {}", folder.string(), error.message()));
+    }
+    std::sort(directories.begin(), directories.end());
+    if (directories.size() > kMaxScenes) {
+        spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
+                     directories.size(), kMaxScenes);
+        directories.resize(kMaxScenes);
+    }
+    for (const fs::path& directory : directories) {
+        try {
+            open(directory);
+        } catch (const std::exception& failure) {
+            spdlog::error("scene_broken directory={:?} reason={:?}", directory.string(),
+                          failure.what());
+        }
+    }
+}
+
+void SceneLibrary::open(const fs::path& directory) {
+    const std::string name = directory.stem().string();
+    if (!wire::is_name(name)) {
+        throw std::runtime_error(
+            fmt::format("the name of a scene must be {}", wire::kNameRule));
+    }
+    std::shared_ptr<const transport::Transport> transport =
+        transport::Transport::open(directory);
+    SkyPixels sky(*transport);
+    const std::uint64_t bytes = transport->total_bytes();
+    auto scene = std::make_shared<const ServedScene>(
+        ServedScene{.name = name,
+                    .directory = directory,
+                    .engine = std::make_shared<const engine::Scene>(std::move(transport)),
+                    .sky = std::move(sky)});
+    const transport::TileGrid& image = scene->engine->image();
+    spdlog::info("scene_opened name={} width={} height={} face_resolution={} bytes={}", name,
+                 image.width, image.height, scene->engine->face_resolution(), bytes);
+    const std::lock_guard lock(mutex_);
+    scenes_.insert_or_assign(name, std::move(scene));
+}
+
+std::shared_ptr<const ServedScene> SceneLibrary::find(std::string_view name) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(name);
+    return found == scenes_.end() ? nullptr : found->second;
+}
+
+std::vector<std::shared_ptr<const ServedScene>> SceneLibrary::list() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::shared_ptr<const ServedScene>> all;
+    all.reserve(scenes_.size());
+    for (const auto& [name, scene] : scenes_) {
+        all.push_back(scene);
+    }
+    return all;
+}
+
+std::uint64_t SceneLibrary::total_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& scene : list()) {
+        bytes += scene->engine->transport().total_bytes();
+    }
+    return bytes;
+}
+
+std::optional<std::string> read_thumbnail(const ServedScene& scene) {
+    const fs::path path = scene.directory / "view" / "thumbnail.png";
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error || size > SceneLibrary::kMaxThumbnailBytes) {
+        return std::nullopt;
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+        return std::nullopt;
+    }
+    return bytes;
+}
+
+}  // namespace relume::net

@@ -1,0 +1,205 @@
+#include "server/net/server.h"
+
+#include "protocol/transport/atomic_file.h"
+#include "server/net/access.h"
+#include "server/net/http_routes.h"
+#include "server/net/listener.h"
+#include "server/net/static_files.h"
+#include "server/net/upload.h"
+#include "server/net/worker_pool.h"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace relume::net {
+
+namespace asio = boost::asio;
+
+namespace {
+
+// Threads for requests that decode images or read files.
+constexpr std::size_t kSlowRequestThreads = 2;
+constexpr std::chrono::milliseconds kDrainPoll{5};
+
+StaticFiles files_from(const std::filesystem::path& web_root) {
+    return web_root.empty() ? StaticFiles() : StaticFiles(web_root);
+}
+
+EnvironmentLibrary& with_folder(EnvironmentLibrary& library,
+                                const std::filesystem::path& folder) {
+    if (!folder.empty()) {
+        library.add_folder(folder);
+    }
+    return library;
+}
+
+UploadOptions upload_options_from(const Configuration& configuration) {
+    return {.file_bytes = configuration.limits.upload_bytes,
+            .texels = configuration.connection.upload_texels,
+            .concurrent = configuration.connection.concurrent_uploads,
+            .decoder = configuration.decoder};
+}
+
+}  // namespace
+
+// In the order in which they need one another; they die in the opposite one.
+struct Server::Parts {
+    explicit Parts(const Configuration& c)
+        : configuration(c),
+          environments(c.environment_bounds),
+          files(files_from(c.web_root)),
+          access(c.token, OriginPolicy(c.allow_origins)),
+          io(static_cast<int>(c.io_threads)),
+          keep_running(io.get_executor()),
+          workers(c.workers),
+          rooms(std::make_shared<Rooms>(
+              scenes, with_folder(environments, c.environments), workers, metrics, c.rooms)),
+          routes(scenes, environments, files, access, readiness, metrics),
+          uploads(environments, access, upload_options_from(c)),
+          slow_requests(kSlowRequestThreads),
+          services{routes,
+                   uploads,
+                   *rooms,
+                   access,
+                   readiness,
+                   metrics,
+                   configuration.limits,
+                   configuration.connection,
+                   slow_requests},
+          listener(io, endpoint_from_address(c.listen)) {}
+
+    const Configuration configuration;
+    Metrics metrics;
+    Readiness readiness;
+    SceneLibrary scenes;
+    EnvironmentLibrary environments;
+    StaticFiles files;
+    Access access;
+    // Outlives all that holds one of its executors: outboxes in rooms, handlers of slow
+    // requests.
+    asio::io_context io;
+    asio::executor_work_guard<asio::io_context::executor_type> keep_running;
+    WorkerPool workers;
+    std::shared_ptr<Rooms> rooms;
+    HttpRoutes routes;
+    Uploads uploads;
+    asio::thread_pool slow_requests;
+    ConnectionServices services;
+    Listener listener;
+    std::vector<std::jthread> io_threads;
+    std::jthread opener;
+    bool drained = false;
+
+    void open_scenes();
+    void wait_for(Clock::time_point deadline, const std::function<bool()>& done) const;
+};
+
+void Server::Parts::open_scenes() {
+    try {
+        scenes.open_all(configuration.scenes);
+    } catch (const std::exception& failure) {
+        spdlog::error("scenes_unreadable reason={:?}", failure.what());
+    }
+    const std::size_t count = scenes.list().size();
+    metrics.set_scenes(count, scenes.total_bytes());
+    if (count == 0) {
+        spdlog::error("no_scene folder={:?}", configuration.scenes.string());
+    }
+    spdlog::info("ready scenes={} environments={}", count, environments.list().size());
+    readiness.set_ready();
+}
+
+void Server::Parts::wait_for(Clock::time_point deadline,
+                             const std::function<bool()>& done) const {
+    while (!done() && Clock::now() < deadline) {
+        std::this_thread::sleep_for(kDrainPoll);
+    }
+}
+
+Server::Server(const Configuration& configuration)
+    : parts_(std::make_unique<Parts>(configuration)) {
+    Parts& parts = *parts_;
+    const auto endpoint = parts.listener.endpoint();
+    spdlog::info("listening address={} port={}", endpoint.address().to_string(),
+                 endpoint.port());
+    if (!configuration.port_file.empty()) {
+        const std::string text = fmt::format("{}\n", endpoint.port());
+        transport::write_file_atomically(configuration.port_file, {transport::bytes_of(text)});
+    }
+    parts.listener.start(parts.services);
+    for (std::size_t i = 0; i < configuration.io_threads; ++i) {
+        parts.io_threads.emplace_back([&parts] { parts.io.run(); });
+    }
+    parts.opener = std::jthread([&parts] { parts.open_scenes(); });
+}
+
+Server::~Server() {
+    drain();
+}
+
+std::uint16_t Server::port() const {
+    return parts_->listener.endpoint().port();
+}
+
+void Server::wait_until_started() const {
+    parts_->readiness.wait_until_started();
+}
+
+const Metrics& Server::metrics() const {
+    return parts_->metrics;
+}
+
+void Server::drain() {
+    Parts& parts = *parts_;
+    if (std::exchange(parts.drained, true)) {
+        return;
+    }
+    const Clock::time_point begin = Clock::now();
+    const std::chrono::milliseconds bound(parts.configuration.drain_milliseconds);
+    spdlog::info("draining connections={}", parts.listener.connections());
+    parts.readiness.set_draining();
+    parts.listener.stop();
+    parts.rooms->stop_edits();
+    parts.wait_for(begin + bound / 2, [&] { return !parts.rooms->has_pending_edit(); });
+    parts.rooms->close_all(wire::CloseCode::shutting_down);
+    parts.wait_for(begin + bound, [&] { return parts.listener.connections() == 0; });
+    const std::size_t cut = parts.listener.connections();
+    parts.io.stop();
+    parts.io_threads.clear();
+    parts.slow_requests.stop();
+    parts.slow_requests.join();
+    parts.workers.stop();
+    parts.opener = {};
+    spdlog::info("drained connections_cut={} milliseconds={:.0f}", cut,
+                 milliseconds(Clock::now() - begin));
+}
+
+void check_configuration(const Configuration& configuration) {
+    static_cast<void>(endpoint_from_address(configuration.listen));
+    EnvironmentLibrary environments(configuration.environment_bounds);
+    with_folder(environments, configuration.environments);
+    if (!environments.find(configuration.rooms.environment)) {
+        throw std::runtime_error(
+            fmt::format("--default-environment: there is no environment {}",
+                        configuration.rooms.environment));
+    }
+    static_cast<void>(files_from(configuration.web_root));
+    SceneLibrary scenes;
+    scenes.open_all(configuration.scenes);
+    if (scenes.list().empty()) {
+        throw std::runtime_error(
+            fmt::format("no scene in {} can be served", configuration.scenes.string()));
+    }
+}
+
+}  // namespace relume::net

@@ -1,0 +1,22 @@
+#include "server/net/token_bucket.h"
+
+#include <algorithm>
+
+namespace relume::net {
+
+TokenBucket::TokenBucket(double tokens_per_second, double burst, Clock::time_point now)
+    : tokens_per_second_(tokens_per_second), burst_(burst), tokens_(burst), refilled_at_(now) {}
+
+bool TokenBucket::take(Clock::time_point now) {
+    if (now > refilled_at_) {
+        tokens_ = std::min(burst_, tokens_ + seconds(now - refilled_at_) * tokens_per_second_);
+        refilled_at_ = now;
+    }
+    if (tokens_ < 1) {
+        return false;
+    }
+    tokens_ -= 1;
+    return true;
+}
+
+}  // namespace relume::net

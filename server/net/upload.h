@@ -1,0 +1,57 @@
+// Environments that clients send.
+#pragma once
+
+#include "server/light/projection.h"
+#include "server/net/access.h"
+#include "server/net/connection_options.h"
+#include "server/net/environment_library.h"
+#include "server/net/http_message.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace relume::net {
+
+// One upload that has been let in; holds a place among the concurrent ones as long as it lives.
+struct Upload {
+    std::string name;
+    std::optional<light::Projection> projection;
+    std::shared_ptr<void> place;
+};
+
+struct UploadOptions {
+    std::uint64_t file_bytes = 0;
+    std::uint64_t texels = 0;
+    std::size_t concurrent = 0;
+    std::filesystem::path decoder;  // relume-decode; empty: beside the running program
+};
+
+// Thread-safe.
+class Uploads {
+  public:
+    Uploads(EnvironmentLibrary& library, const Access& access, UploadOptions options)
+        : library_(library), access_(access), options_(std::move(options)) {}
+
+    // Everything that can be said before the body is read: a refusal, or a place.
+    [[nodiscard]] std::variant<HttpReply, Upload> admit(const HttpRequest& request);
+    // Decodes in a child process (seconds: not for threads that serve sockets), and offers the
+    // environment under its name.
+    [[nodiscard]] HttpReply finish(const Upload& upload, std::span<const std::byte> body);
+
+  private:
+    EnvironmentLibrary& library_;
+    const Access& access_;
+    const UploadOptions options_;
+    // Shared with the places, which may outlive this.
+    const std::shared_ptr<std::atomic<std::size_t>> in_progress_ =
+        std::make_shared<std::atomic<std::size_t>>(0);
+};
+
+}  // namespace relume::net
