@@ -103,12 +103,11 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
 
     void shake_hands() {
         auto& tcp_stream = beast::get_lowest_layer(stream_);
-        tcp_stream.expires_never();
         error_code ignored;
         tcp_stream.socket().set_option(tcp::no_delay(true), ignored);
-        auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::client);
-        timeout.handshake_timeout = options_.connect_timeout;
-        stream_.set_option(timeout);
+        // The TCP stream times the handshake: Beast's WebSocket timer goes on after a refused
+        // one, and would keep the io_context busy to its end.
+        tcp_stream.expires_after(options_.connect_timeout);
         stream_.async_handshake(
             refusal_, options_.server.authority(), target_of(options_),
             [self = shared_from_this()](error_code error) {
@@ -120,9 +119,17 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
                             : "WebSocket upgrade",
                         error);
                 } else {
-                    self->read();
+                    self->opened();
                 }
             });
+    }
+
+    void opened() {
+        beast::get_lowest_layer(stream_).expires_never();
+        auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::client);
+        timeout.handshake_timeout = options_.connect_timeout;  // of closing, too
+        stream_.set_option(timeout);
+        read();
     }
 
     void read() {
@@ -154,7 +161,6 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
                 end_with({.was_open = open_,
                           .close_code = 0,
                           .reason = fmt::format("the server sent {}", refusal.what())});
-                beast::get_lowest_layer(stream_).close();
                 return;
             }
         }
@@ -207,7 +213,6 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
                       .close_code = 0,
                       .reason = fmt::format("the server does not take messages: {} wait",
                                             queue_.size())});
-            beast::get_lowest_layer(stream_).close();
             return;
         }
         queue_.push_back(std::move(text));
@@ -248,6 +253,7 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
 
     void end_with(const SessionEnd& how) {
         if (!std::exchange(ended_, true)) {
+            beast::get_lowest_layer(stream_).close();
             listener_.on_end(how);
         }
     }
