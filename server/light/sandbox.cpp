@@ -60,15 +60,19 @@ class SyscallFilter {
     std::unique_ptr<void, decltype(&seccomp_release)> context_;
 };
 
+scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
+    return {index, how, a, b};
+}
+
 void load_filter() {
     constexpr scmp_datum_t kExec = PROT_EXEC;
     SyscallFilter filter;
-    filter.allow(SCMP_SYS(read), SCMP_A0_64(SCMP_CMP_EQ, 0));
-    filter.allow(SCMP_SYS(write), SCMP_A0_64(SCMP_CMP_EQ, 1));
-    filter.allow(SCMP_SYS(write), SCMP_A0_64(SCMP_CMP_EQ, 2));
+    filter.allow(SCMP_SYS(read), argument(0, SCMP_CMP_EQ, 0));
+    filter.allow(SCMP_SYS(write), argument(0, SCMP_CMP_EQ, 1));
+    filter.allow(SCMP_SYS(write), argument(0, SCMP_CMP_EQ, 2));
     // Memory, but none that can be executed.
-    filter.allow(SCMP_SYS(mmap), SCMP_A2_64(SCMP_CMP_MASKED_EQ, kExec, 0));
-    filter.allow(SCMP_SYS(mprotect), SCMP_A2_64(SCMP_CMP_MASKED_EQ, kExec, 0));
+    filter.allow(SCMP_SYS(mmap), argument(2, SCMP_CMP_MASKED_EQ, kExec, 0));
+    filter.allow(SCMP_SYS(mprotect), argument(2, SCMP_CMP_MASKED_EQ, kExec, 0));
     for (const int syscall :
          {SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise), SCMP_SYS(brk), SCMP_SYS(futex),
           SCMP_SYS(sched_yield), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
@@ -81,7 +85,7 @@ void load_filter() {
     }
     // abort() raises its signal this way; being killed for that would hide the reason.
     filter.allow(SCMP_SYS(tgkill),
-                 SCMP_A0_64(SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid())));
+                 argument(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid())));
     filter.load();
 }
 
