@@ -1,6 +1,6 @@
 /** The server's HTTP side [protocol/README.md §3]. */
 import { isObject } from "./wire/merge_patch";
-import { refusalFromJson, type SceneSummary } from "./wire/message";
+import { refusalFromJson, type SceneSummary, titleOf } from "./wire/message";
 import type { Json, JsonObject } from "./wire/state";
 
 export interface SceneEntry extends SceneSummary {
@@ -87,7 +87,7 @@ export class Api {
         if (response.ok && isObject(json)) return json;
         if (isObject(json) && isObject(json["error"])) {
             const refusal = refusalFromJson(json["error"]);
-            throw new ApiError(refusal.message, refusal.found, refusal.expected);
+            throw new ApiError(titleOf(refusal), refusal.found, refusal.expected);
         }
         throw new ApiError(`The server answered ${response.status} ${response.statusText}`);
     }

@@ -60,7 +60,7 @@ export class EnvironmentList {
             make("span", "environment-name", {}, entry.name),
             blend,
         );
-        if (entry.kind !== "file") {
+        if (entry.kind === "upload") {
             button.append(make("span", "environment-kind", {}, entry.kind));
         }
         button.addEventListener("click", () => this.choose(entry.name));

@@ -4,7 +4,9 @@ import "uplot/dist/uPlot.min.css";
 import { percentText } from "./format";
 import type { ImageHeader } from "./wire/image_header";
 
-const kWindowSeconds = 20;
+const kWindowSeconds = 12;
+/** A pause this long parts the line: nothing was shown in between. */
+const kPauseSeconds = 0.5;
 const kMostImages = 4000;
 /** The lower border; exact images stand on it. */
 const kFloor = 1e-5;
@@ -55,7 +57,6 @@ export class ErrorPlot {
                         stroke: colour("--text"),
                         width: 1.5,
                         points: { show: false },
-                        spanGaps: true,
                     },
                     {
                         stroke: colour("--exact"),
@@ -73,6 +74,12 @@ export class ErrorPlot {
     }
 
     add(header: ImageHeader, now: number): void {
+        const last = this.times[this.times.length - 1];
+        if (last !== undefined && now / 1000 - last > kPauseSeconds) {
+            this.times.push(now / 1000 - kPauseSeconds / 2);
+            this.errors.push(null);
+            this.exact.push(null);
+        }
         this.times.push(now / 1000);
         this.errors.push(Math.max(kFloor, header.statedError));
         this.exact.push(header.exact ? kFloor : null);

@@ -22,6 +22,7 @@ import { patchToState } from "./shared_state";
 import { StatusLine } from "./status_line";
 import { StrategyPanel } from "./strategy_panel";
 import { Upload } from "./upload";
+import { titleOf } from "./wire/message";
 import { kEncodingJpeg, type ImageHeader } from "./wire/image_header";
 import type { RoomState } from "./wire/state";
 
@@ -195,8 +196,10 @@ export class Studio {
             const header = this.decoder.take(frame);
             this.readouts.frameReceived(header, frame.byteLength, performance.now());
         });
-        session.refused.listen(({ message, path, found, expected }) => {
-            const title = path === undefined ? message : `${path}: ${message}`;
+        session.refused.listen((refusal) => {
+            const { path, found, expected } = refusal;
+            const title =
+                path === undefined ? titleOf(refusal) : `${path}: ${titleOf(refusal)}`;
             this.notices.show({ tone: "error", title, found, expected });
         });
         session.editSent.listen(({ id, patch }) => {

@@ -1,4 +1,5 @@
 /** Text frames of the session, server to client [protocol/README.md §3.1]. */
+import { errorWords } from "./error_code";
 import { isObject } from "./merge_patch";
 import type { Json, JsonObject, RoomState } from "./state";
 
@@ -103,6 +104,12 @@ export function refusalFromJson(json: JsonObject): Refusal {
     if (expected !== undefined) refusal.expected = expected;
     if (typeof json["edit_id"] === "number") refusal.edit_id = json["edit_id"];
     return refusal;
+}
+
+/** The message repeats what was found and expected; where those stand apart, words will do. */
+export function titleOf(refusal: Refusal): string {
+    const isApart = refusal.found !== undefined && refusal.expected !== undefined;
+    return (isApart ? errorWords(refusal.code) : null) ?? refusal.message;
 }
 
 /**

@@ -1,0 +1,100 @@
+/** The studio page in a browser: opening it, using it by hand, reading what it shows. */
+import { chromium } from "playwright-core";
+import { setting } from "./programs.mjs";
+import { floatFromHalf } from "./images.mjs";
+
+const kPatienceMilliseconds = 60_000;
+
+export function launchBrowser() {
+    return chromium.launch({
+        executablePath: setting("CHROMIUM"),
+        args: [
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-quic",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        ],
+    });
+}
+
+export class StudioPage {
+    constructor(page) {
+        this.page = page;
+        this.errors = [];
+        page.setDefaultTimeout(kPatienceMilliseconds);
+        page.on("pageerror", (error) => this.errors.push(String(error.stack ?? error)));
+    }
+
+    static async open(browser, address, viewport = { width: 1440, height: 900 }) {
+        const studio = new StudioPage(await browser.newPage({ viewport }));
+        await studio.page.goto(address);
+        return studio;
+    }
+
+    /** The condition is a function of window.relume, evaluated in the page. */
+    async until(condition, argument) {
+        const source = `window.relume !== undefined && (${condition})(window.relume, ${JSON.stringify(argument ?? null)})`;
+        await this.page.waitForFunction(source);
+    }
+
+    untilExact() {
+        return this.until((relume) => relume.exact);
+    }
+
+    revision() {
+        return this.page.evaluate(() => window.relume.revision);
+    }
+
+    state() {
+        return this.page.evaluate(() => window.relume.state);
+    }
+
+    /** Drags on the image by (dx, dy) pixels in `steps` moves. */
+    async drag(dx, dy, { steps = 12, shift = false } = {}) {
+        const { mouse, keyboard } = this.page;
+        const box = await this.page.locator("#image-frame").boundingBox();
+        const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+        if (shift) await keyboard.down("Shift");
+        await mouse.move(x, y);
+        await mouse.down();
+        for (let i = 1; i <= steps; ++i)
+            await mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
+        await mouse.up();
+        if (shift) await keyboard.up("Shift");
+    }
+
+    /** `{header, rgb, pixels, display}`: the settled image, linear, and the canvas as it is. */
+    async shown() {
+        const raw = await this.page.evaluate(() => {
+            const { header, planes } = window.relume.settled();
+            return {
+                header,
+                display: window.relume.display,
+                planes: [planes.R, planes.G, planes.B].map((plane) => Array.from(plane)),
+                pixels: Array.from(window.relume.pixels()),
+            };
+        });
+        const { header, display, pixels, planes } = raw;
+        const rgb = new Float32Array(header.width * header.height * 3);
+        planes.forEach((plane, c) => {
+            plane.forEach((bits, i) => (rgb[i * 3 + c] = floatFromHalf(bits)));
+        });
+        return { header, display, pixels, rgb };
+    }
+
+    notice() {
+        return this.page.locator(".notice-error").last();
+    }
+
+    markWords() {
+        return this.page.locator("#mark-words").innerText();
+    }
+
+    close() {
+        return this.page.close();
+    }
+}
