@@ -12,6 +12,10 @@ target_include_directories(relume_build_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(relume_build_flags INTERFACE
     -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow
     $<$<BOOL:${RELUME_WARNINGS_AS_ERRORS}>:-Werror>)
+# GCC 12 takes "text" + std::string for overlapping copies [GCC bug 105651].
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(relume_build_flags INTERFACE -Wno-restrict)
+endif()
 # The same source must give the same bits on every machine: no fused multiply-add by whim.
 target_compile_options(relume_build_flags INTERFACE -ffp-contract=off)
 if(RELUME_SANITIZE)
