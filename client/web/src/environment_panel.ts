@@ -58,7 +58,7 @@ export class EnvironmentPanel {
     private addLightBindings(): void {
         const { pane, model } = this;
         pane.addBinding(model, "gain", {
-            label: "gain, stops",
+            label: "gain EV",
             min: kOffStops,
             max: kMaxStops,
             step: 0.01,

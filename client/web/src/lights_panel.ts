@@ -61,7 +61,7 @@ export class LightsPanel {
             this.apply({ radiance: linearFromBrightness({ intensity, colour: model.colour }) });
         };
         pane.addBinding(model, "stops", {
-            label: "radiance, stops",
+            label: "radiance EV",
             min: kMinStops,
             max: kMaxStops,
             step: 0.01,

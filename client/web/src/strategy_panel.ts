@@ -63,7 +63,7 @@ export class StrategyPanel {
         const folder = this.pane.addFolder({ title: "Display" });
         folder
             .addBinding(model, "exposure", {
-                label: "exposure",
+                label: "exposure EV",
                 min: -kUsualStops,
                 max: kUsualStops,
                 step: 0.01,
