@@ -3,6 +3,7 @@ import { type FolderApi, Pane } from "tweakpane";
 import type { EnvironmentEntry } from "./api";
 import { hexFromLinear, linearFromHex } from "./colour";
 import { stopsText } from "./format";
+import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
 import type { Session } from "./session";
@@ -26,7 +27,10 @@ export class EnvironmentPanel {
     private readonly pane: Pane;
     private readonly blendFolder: FolderApi;
     private syncing = false;
-    private frame = 0;
+    private readonly syncSoon = onceAFrame(() => {
+        const { state } = this.session;
+        if (state !== null) this.sync(state);
+    });
     private names: string[] = [];
 
     constructor(
@@ -113,15 +117,6 @@ export class EnvironmentPanel {
 
     private apply(patch: JsonObject): void {
         if (!this.syncing) this.session.edit(patch);
-    }
-
-    private syncSoon(): void {
-        if (this.frame !== 0) return;
-        this.frame = requestAnimationFrame(() => {
-            this.frame = 0;
-            const { state } = this.session;
-            if (state !== null) this.sync(state);
-        });
     }
 
     private sync(state: RoomState): void {

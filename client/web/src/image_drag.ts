@@ -3,7 +3,7 @@
  * down tips it; the wheel sets exposure, with Alt it rolls the light.
  */
 import type { Exposure } from "./exposure";
-import { listenForDrag } from "./pointer_drag";
+import { type DragMove, listenForDrag } from "./pointer_drag";
 import { turned } from "./rotation";
 import type { Session } from "./session";
 
@@ -22,6 +22,16 @@ export function turnLight(session: Session, turn: Turn): void {
     session.edit({ rotation: { quaternion: turned(quaternion, turn) } });
 }
 
+/** Across turns; with Shift, up and down tips as well. */
+export function turnByDrag(
+    session: Session,
+    { dx, dy, event }: DragMove,
+    degreesPerPixel: number,
+): void {
+    const across = dx * degreesPerPixel;
+    turnLight(session, event.shiftKey ? { across, down: dy * degreesPerPixel } : { across });
+}
+
 /** Movement of the wheel in notches, down being positive. */
 export function notchesFromWheel(event: WheelEvent): number {
     const delta = event.deltaY !== 0 ? event.deltaY : event.deltaX;
@@ -33,13 +43,8 @@ export function notchesFromWheel(event: WheelEvent): number {
 export function listenOnImage(frame: HTMLElement, session: Session, exposure: Exposure): void {
     listenForDrag(frame, {
         start: () => session.status.kind === "open",
-        move: ({ dx, dy, event }) => {
-            const scale = kDegreesPerWidth / Math.max(1, frame.clientWidth);
-            turnLight(session, {
-                across: dx * scale,
-                ...(event.shiftKey ? { down: dy * scale } : {}),
-            });
-        },
+        move: (move) =>
+            turnByDrag(session, move, kDegreesPerWidth / Math.max(1, frame.clientWidth)),
     });
     frame.addEventListener(
         "wheel",

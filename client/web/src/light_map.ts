@@ -5,7 +5,7 @@
 import type { AreaLights } from "./area_lights";
 import { brightnessFromLinear } from "./colour";
 import { amountText } from "./format";
-import { notchesFromWheel, turnLight } from "./image_drag";
+import { notchesFromWheel, turnByDrag } from "./image_drag";
 import {
     capOutline,
     directionFromPosition,
@@ -18,6 +18,7 @@ import {
     LightPicture,
     type PictureSource,
 } from "./light_picture";
+import { onceAFrame } from "./once_a_frame";
 import { listenForDrag } from "./pointer_drag";
 import type { PreviewStore } from "./preview_store";
 import type { Session } from "./session";
@@ -40,7 +41,10 @@ export class LightMap {
     private readonly picture = new LightPicture();
     private readonly shapes = new Map<string, SVGGElement>();
     private drawn = "";
-    private frame = 0;
+    private readonly redrawSoon = onceAFrame(() => {
+        this.drawPicture();
+        this.drawLights();
+    });
 
     constructor(
         private readonly root: HTMLElement,
@@ -71,22 +75,7 @@ export class LightMap {
                 lights.select(null);
                 return true;
             },
-            move: ({ dx, dy, event }) => {
-                const scale = 360 / Math.max(1, root.clientWidth);
-                turnLight(session, {
-                    across: dx * scale,
-                    ...(event.shiftKey ? { down: dy * scale } : {}),
-                });
-            },
-        });
-    }
-
-    private redrawSoon(): void {
-        if (this.frame !== 0) return;
-        this.frame = requestAnimationFrame(() => {
-            this.frame = 0;
-            this.drawPicture();
-            this.drawLights();
+            move: (move) => turnByDrag(session, move, 360 / Math.max(1, root.clientWidth)),
         });
     }
 

@@ -5,6 +5,7 @@ import { brightnessFromLinear, type HexColour, linearFromBrightness } from "./co
 import { icon, make } from "./dom";
 import { amountText, stopsText } from "./format";
 import { positionFromDirection, directionFromPosition } from "./lat_long";
+import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
 import type { AreaLight } from "./wire/state";
@@ -35,7 +36,10 @@ export class LightsPanel {
     };
     private readonly pane: Pane;
     private syncing = false;
-    private frame = 0;
+    private readonly redrawSoon = onceAFrame(() => {
+        this.drawList();
+        this.syncPane();
+    });
     private drawn = "";
 
     constructor(
@@ -99,15 +103,6 @@ export class LightsPanel {
     private apply(fields: Partial<AreaLight>): void {
         const id = this.lights.selected;
         if (!this.syncing && id !== null) this.lights.change(id, fields);
-    }
-
-    private redrawSoon(): void {
-        if (this.frame !== 0) return;
-        this.frame = requestAnimationFrame(() => {
-            this.frame = 0;
-            this.drawList();
-            this.syncPane();
-        });
     }
 
     private drawList(): void {

@@ -4,6 +4,7 @@ import { hexFromLinear, linearFromHex } from "./colour";
 import { kMaxExposureStops, kMinExposureStops } from "./display";
 import type { Exposure } from "./exposure";
 import { percentText, stopsText } from "./format";
+import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
 import type {
@@ -42,7 +43,10 @@ export class StrategyPanel {
     private readonly backgroundColour: { hidden: boolean };
     private readonly amounts: BudgetRows;
     private syncing = false;
-    private frame = 0;
+    private readonly syncSoon = onceAFrame(() => {
+        const { state } = this.session;
+        if (state !== null) this.sync(state);
+    });
 
     constructor(
         root: HTMLElement,
@@ -166,15 +170,6 @@ export class StrategyPanel {
     private showAmount(): void {
         this.amounts.milliseconds.hidden = this.model.budget !== "milliseconds";
         this.amounts.coefficients.hidden = this.model.budget !== "coefficients";
-    }
-
-    private syncSoon(): void {
-        if (this.frame !== 0) return;
-        this.frame = requestAnimationFrame(() => {
-            this.frame = 0;
-            const { state } = this.session;
-            if (state !== null) this.sync(state);
-        });
     }
 
     private sync(state: RoomState): void {
