@@ -44,7 +44,7 @@ describe("studio page", { timeout: 240_000 }, () => {
     }
 
     /** Renders the same state by the command line and holds the page's image against it. */
-    async function compareWithClient(page, room, fileName) {
+    async function compareWithClient(test, page, room, fileName) {
         const file = output(fileName);
         await relume(
             "render",
@@ -64,15 +64,16 @@ describe("studio page", { timeout: 240_000 }, () => {
             [shown.header.width, shown.header.height],
         );
         const error = relativeL2(shown.rgb, reference.rgb);
+        const distance = largestCodeDistance(shown.pixels, reference.rgb, shown.display);
+        test.diagnostic(`${fileName}: relative L2 ${error}, ${distance} code values`);
         assert.ok(
             error <= 1e-5,
             `relative L2 of page to client is ${error}, expected at most 1e-5`,
         );
-        const distance = largestCodeDistance(shown.pixels, reference.rgb, shown.display);
         assert.ok(distance <= 1, `canvas is ${distance} code values off, expected at most 1`);
     }
 
-    it("drags to another light, becomes exact, and shows what the client renders", async () => {
+    it("drags to another light, becomes exact, and shows what the client renders", async (test) => {
         const page = await openStudio(`scene=${scene.name}&room=drag`);
         await page.untilExact();
         const before = (await page.state()).rotation.quaternion;
@@ -87,9 +88,9 @@ describe("studio page", { timeout: 240_000 }, () => {
         assert.ok(relativeL2(second.rgb, first.rgb) > 1e-3, "the light has moved in the image");
         await page.page.screenshot({ path: output("exact.png") });
 
-        await compareWithClient(page, ["--room", "drag"], "same-room.exr");
+        await compareWithClient(test, page, ["--room", "drag"], "same-room.exr");
         const state = JSON.stringify(await page.state());
-        await compareWithClient(page, ["--patch", state], "own-room.exr");
+        await compareWithClient(test, page, ["--patch", state], "own-room.exr");
     });
 
     it("develops exposure and tone curve itself, at once, with and without WebGL2", async () => {
