@@ -1,5 +1,5 @@
 // relume-decode: one image file from standard input, its texels to standard output, and nothing
-// else: started by sandboxed_decoder.cpp, in a sandbox before it reads the first byte.
+// else. Started by sandboxed_decoder.cpp, in a sandbox before it reads the first byte.
 #include "server/light/decoder_reply.h"
 #include "server/light/environment_error.h"
 #include "server/light/environment_import.h"
@@ -107,12 +107,7 @@ void warm_up(const char* format) {
     (void)relume::light::import_image(std::as_bytes(std::span(written.buffer())));
 }
 
-void decode(const Options& options) {
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);
-    warm_up("openexr");
-    warm_up("hdr");
-    relume::light::enter_sandbox(options.sandbox);
+int decode(const Options& options) {
     try {
         const std::vector<std::byte> bytes = read_input(options.max_bytes);
         const relume::light::ImportedImage imported = relume::light::import_image(
@@ -135,6 +130,7 @@ void decode(const Options& options) {
     } catch (const std::exception& e) {
         refuse(std::string("image cannot be read: ") + e.what(), "", "");
     }
+    return EXIT_SUCCESS;
 }
 
 }  // namespace
@@ -149,11 +145,13 @@ int main(int argc, char** argv) {
     app.add_option("--cpu-seconds", options.sandbox.cpu_seconds)->required();
     CLI11_PARSE(app, argc, argv);
     try {
-        decode(options);
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("exr_threads", -1);
+        warm_up("openexr");
+        warm_up("hdr");
+        relume::light::run_sandboxed(options.sandbox, [&] { return decode(options); });
     } catch (const std::exception& e) {
         std::fprintf(stderr, "relume-decode: %s\n", e.what());
-        _exit(EXIT_FAILURE);
+        return EXIT_FAILURE;
     }
-    // Destructors of libraries might want system calls that are no longer allowed.
-    _exit(EXIT_SUCCESS);
 }

@@ -4,10 +4,13 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <system_error>
 
@@ -77,10 +80,7 @@ void load_filter() {
          {SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise), SCMP_SYS(brk), SCMP_SYS(futex),
           SCMP_SYS(sched_yield), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
           SCMP_SYS(getrandom), SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(rt_sigprocmask),
-          SCMP_SYS(rt_sigreturn), SCMP_SYS(exit), SCMP_SYS(exit_group),
-          // Threads that libraries started while loading, and that only now get to run.
-          SCMP_SYS(rseq), SCMP_SYS(set_robust_list), SCMP_SYS(sched_getaffinity),
-          SCMP_SYS(nanosleep), SCMP_SYS(clock_nanosleep)}) {
+          SCMP_SYS(rt_sigreturn), SCMP_SYS(exit), SCMP_SYS(exit_group)}) {
         filter.allow(syscall);
     }
     // abort() raises its signal this way; being killed for that would hide the reason.
@@ -89,13 +89,11 @@ void load_filter() {
     filter.load();
 }
 
-}  // namespace
-
-void enter_sandbox(const SandboxLimits& limits) {
+void enter_sandbox(const SandboxLimits& limits, pid_t parent) {
     require(prctl(PR_SET_PDEATHSIG, SIGKILL) == 0, errno, "PR_SET_PDEATHSIG");
+    require(getppid() == parent, ESRCH, "the parent has gone");
     require(prctl(PR_SET_DUMPABLE, 0) == 0, errno, "PR_SET_DUMPABLE");
     require(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0, errno, "PR_SET_NO_NEW_PRIVS");
-    set_limit(RLIMIT_CORE, 0, "RLIMIT_CORE");
     set_limit(RLIMIT_FSIZE, 0, "RLIMIT_FSIZE");
     set_limit(RLIMIT_NOFILE, 3, "RLIMIT_NOFILE");
     set_limit(RLIMIT_CPU, limits.cpu_seconds, "RLIMIT_CPU");
@@ -103,6 +101,39 @@ void enter_sandbox(const SandboxLimits& limits) {
         set_limit(RLIMIT_AS, limits.address_space_bytes, "RLIMIT_AS");
     }
     load_filter();
+}
+
+[[noreturn]] void end_like(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        require(errno == EINTR, errno, "waitpid");
+    }
+    if (WIFSIGNALED(status)) {
+        std::signal(WTERMSIG(status), SIG_DFL);
+        std::raise(WTERMSIG(status));
+    }
+    _exit(WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_FAILURE);
+}
+
+}  // namespace
+
+void run_sandboxed(const SandboxLimits& limits, const std::function<int()>& body) {
+    set_limit(RLIMIT_CORE, 0, "RLIMIT_CORE");
+    require(prctl(PR_SET_PDEATHSIG, SIGKILL) == 0, errno, "PR_SET_PDEATHSIG");
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    require(child >= 0, errno, "fork");
+    if (child > 0) {
+        end_like(child);
+    }
+    try {
+        enter_sandbox(limits, parent);
+    } catch (const std::system_error& e) {
+        std::fprintf(stderr, "sandbox: %s\n", e.what());
+        _exit(EXIT_FAILURE);
+    }
+    // Not exit: destructors of libraries might want system calls that are no longer allowed.
+    _exit(body());
 }
 
 }  // namespace relume::light

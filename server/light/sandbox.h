@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 namespace relume::light {
 
@@ -10,10 +11,15 @@ struct SandboxLimits {
     unsigned cpu_seconds = 0;
 };
 
-// From here on this process, all its threads included, may compute, allocate memory, read
-// descriptor 0, write descriptors 1 and 2, and end; any other system call ends it with SIGSYS.
-// It dies with its parent. Cannot be undone. Throws std::system_error if the kernel refuses any
-// part of it.
-void enter_sandbox(const SandboxLimits& limits);
+// Runs `body` in a fork of this process that may compute, allocate memory, read descriptor 0,
+// write descriptors 1 and 2, and end; any other system call ends it with SIGSYS. It dies with
+// its parent. This process then ends as the fork did: with what `body` returned, or by the same
+// signal.
+//
+// A fork, because it has one thread: those that libraries start while they load would otherwise
+// come under the filter in the middle of whatever they do.
+// Throws std::system_error where it cannot fork; this process, too, dies with its parent. If
+// the kernel refuses any part of the sandbox, `body` is not run and the status is EXIT_FAILURE.
+[[noreturn]] void run_sandboxed(const SandboxLimits& limits, const std::function<int()>& body);
 
 }  // namespace relume::light

@@ -17,7 +17,6 @@
 namespace relume::light {
 namespace {
 
-// Beside the running program when installed; in the build tree in the folder of this library.
 std::filesystem::path find_program(const DecodeLimits& limits) {
     if (!limits.program.empty()) {
         return limits.program;
@@ -25,10 +24,9 @@ std::filesystem::path find_program(const DecodeLimits& limits) {
     std::error_code error;
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-    for (const char* place : {"relume-decode", "../light/relume-decode"}) {
-        if (std::filesystem::exists(here / place, error)) {
-            return here / place;
-        }
+    if (std::filesystem::path beside = here / "relume-decode";
+        std::filesystem::exists(beside, error)) {
+        return beside;
     }
     throw EnvironmentError(fmt::format("relume-decode is not in {}", here.string()));
 }

@@ -70,23 +70,23 @@ void check_inheritance(char** environment) {
     answer({.status = ReplyStatus::decoded, .width = 2, .height = 1}, 1.0F, 6);
 }
 
-void escape(const std::string& way) {
-    relume::light::enter_sandbox(
-        {.address_space_bytes = std::size_t{1} << 33, .cpu_seconds = 5});
-    if (way == "open") {
+constexpr int kGotAway = 60;
+
+int try_to(const std::string& act) {
+    if (act == "open") {
         (void)open("/etc/hostname", O_RDONLY | O_CLOEXEC);
-    } else if (way == "socket") {
+    } else if (act == "socket") {
         (void)socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    } else if (way == "fork") {
+    } else if (act == "fork") {
         (void)fork();
-    } else if (way == "exec") {
+    } else if (act == "exec") {
         execl("/bin/true", "true", nullptr);
-    } else if (way == "kill") {
+    } else if (act == "kill") {
         (void)kill(getppid(), 0);
-    } else if (way == "executable memory") {
+    } else if (act == "make executable memory") {
         (void)mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     }
-    _exit(60);  // got away with it
+    return kGotAway;
 }
 
 }  // namespace
@@ -130,8 +130,10 @@ int main(int /*argc*/, char** /*argv*/, char** environment) {
         put(text.data(), text.size());
     } else if (mode == "inheritance") {
         check_inheritance(environment);
-    } else if (mode.starts_with("escape by ")) {
-        escape(mode.substr(std::strlen("escape by ")));
+    } else if (mode.starts_with("try to ")) {
+        relume::light::run_sandboxed(
+            {.address_space_bytes = std::size_t{1} << 33, .cpu_seconds = 5},
+            [&] { return try_to(mode.substr(std::strlen("try to "))); });
     }
     return 0;
 }
