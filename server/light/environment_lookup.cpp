@@ -75,12 +75,18 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     const float fy = y - top;
     const int ix = static_cast<int>(left);
     const int iy = static_cast<int>(top);
-    const auto texel = [&](int dx, int dy) {
-        return texel_at(layout, level, point.face, ix + dx, iy + dy);
+    const auto mix = [&](const auto& texel) {
+        const Imath::V3f upper = texel(0, 0) * (1 - fx) + texel(1, 0) * fx;
+        const Imath::V3f lower = texel(0, 1) * (1 - fx) + texel(1, 1) * fx;
+        return upper * (1 - fy) + lower * fy;
     };
-    const Imath::V3f upper = texel(0, 0) * (1 - fx) + texel(1, 0) * fx;
-    const Imath::V3f lower = texel(0, 1) * (1 - fx) + texel(1, 1) * fx;
-    return upper * (1 - fy) + lower * fy;
+    if (ix >= 0 && iy >= 0 && ix + 1 < static_cast<int>(level.width) &&
+        iy + 1 < static_cast<int>(level.height)) {
+        return mix(
+            [&](int dx, int dy) { return stored_texel(level, point.face, ix + dx, iy + dy); });
+    }
+    return mix(
+        [&](int dx, int dy) { return texel_at(layout, level, point.face, ix + dx, iy + dy); });
 }
 
 // Towards the poles the texels of a lat-long map become narrow, and one pixel spans many of

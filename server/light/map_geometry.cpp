@@ -40,11 +40,11 @@ MapPoint map_point_from_direction(Layout layout, const Imath::V3f& d) {
     switch (layout) {
         case Layout::lat_long: {
             const float phi = std::atan2(d.x, -d.z);
-            const float theta = std::atan2(d.y, std::hypot(d.x, d.z));
+            const float theta = std::atan2(d.y, std::sqrt(d.x * d.x + d.z * d.z));
             return {.face = 0, .x = phi / (2 * kPi) + 0.5F, .y = 0.5F - theta / kPi};
         }
         case Layout::angular: {
-            const float side = std::hypot(d.x, d.y);
+            const float side = std::sqrt(d.x * d.x + d.y * d.y);
             const float r = std::atan2(side, -d.z) / kPi;
             // Straight backwards every point of the rim is the same; take the right one.
             const float u = side > 0 ? d.x / side : 1;
@@ -65,7 +65,9 @@ float solid_angle_density_sr(Layout layout, float x, float y) {
         case Layout::lat_long:
             return 2 * kPi * kPi * std::max(0.0F, std::cos(kPi * (0.5F - y)));
         case Layout::angular: {
-            const float r = std::hypot(2 * x - 1, 2 * y - 1);
+            const float u = 2 * x - 1;
+            const float v = 2 * y - 1;
+            const float r = std::sqrt(u * u + v * v);
             if (r >= 1) {
                 return 0;
             }
