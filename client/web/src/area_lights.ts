@@ -8,7 +8,7 @@ export const kLargestRadiusDegrees = 90;
 
 const kFirstNames = ["key", "fill", "rim"];
 const kNewRadiusDegrees = 6;
-const kNewRadiance: Triple = [40, 40, 40];
+const kNewRadiance: Triple = [120, 120, 120];
 /** High, to the right, towards the viewer of a scene seen along −Z. */
 const kNewDirection: Triple = [0.45, 0.75, 0.5];
 
