@@ -8,7 +8,7 @@
 
 namespace relume::scene {
 
-// [O'Neill14], PCG-XSH-RR 64/32.
+// [ONeill14], PCG-XSH-RR 64/32.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 1) { next(); }

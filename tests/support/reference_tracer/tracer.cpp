@@ -82,9 +82,11 @@ TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions&
         V3d mean(0, 0, 0);
         V3d scatter(0, 0, 0);  // Welford's sum of squared deviations
         for (std::uint32_t i = 1; i <= options.samples; ++i) {
-            const Imath::V3f direction =
-                camera.direction_from_pixel(static_cast<float>(x + random.uniform()),
-                                            static_cast<float>(y + random.uniform()));
+            const bool is_box = options.filter == PixelFilter::box;
+            const double dx = is_box ? random.uniform() : 0.5;
+            const double dy = is_box ? random.uniform() : 0.5;
+            const Imath::V3f direction = camera.direction_from_pixel(
+                static_cast<float>(x + dx), static_cast<float>(y + dy));
             const V3d value = traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
                                               V3d(direction).normalized(), random);
             const V3d step = value - mean;

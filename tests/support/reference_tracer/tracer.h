@@ -11,16 +11,20 @@
 
 namespace relume::reference {
 
+// Which of a pixel's rays count: all of its square, evenly, or the one through its middle.
+enum class PixelFilter { box, centre };
+
 struct TraceOptions {
     std::uint32_t width = 32;
     std::uint32_t height = 32;
     std::uint32_t samples = 256;  // paths per pixel, at least two
     std::uint32_t bounces = 0;    // scattering events after the first; 0: direct light only
     std::uint64_t seed = 1;
+    PixelFilter filter = PixelFilter::box;
 };
 
-// Row-major from the top left. A pixel is the mean over its square of the light that the scene
-// reflects there; where the square sees past the scene it counts as black, as in a picture
+// Row-major from the top left. A pixel is the mean over its rays of the light that the scene
+// reflects there; where a ray sees past the scene it counts as black, as in a picture
 // premultiplied by its coverage.
 struct TracedImage {
     std::uint32_t width = 0;

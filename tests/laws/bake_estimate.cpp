@@ -1,0 +1,110 @@
+#include "tests/laws/bake_estimate.h"
+
+#include "precompute/bake/bake.h"
+#include "precompute/bake/row_baker.h"
+#include "precompute/bake/tile_window.h"
+#include "precompute/scene/camera.h"
+#include "protocol/basis/haar.h"
+#include "protocol/transport/transport.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace relume::test {
+
+using Imath::V3d;
+
+bake::BakeParameters unbiased_parameters() {
+    bake::BakeParameters parameters;
+    parameters.width = 24;
+    parameters.height = 24;
+    parameters.face_resolution = 16;
+    parameters.bounces = 0;
+    parameters.samples = 256;
+    parameters.pixel_samples = 1;
+    parameters.pool_radius = 0;
+    parameters.shrinkage = 0;
+    return parameters;
+}
+
+LinearImage relit_from_rows(const scene::Scene& scene,
+                            const bake::BakeParameters& parameters,
+                            const std::vector<Imath::V3f>& light) {
+    const std::uint32_t n = parameters.face_resolution;
+    std::array<std::vector<float>, 3> coefficients;
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (const Imath::V3f& texel : light)
+            coefficients[c].push_back(texel[static_cast<int>(c)]);
+        basis::haar_forward_cubemap(n, coefficients[c]);
+    }
+    const bake::RayCaster caster(scene);
+    const bake::LightTexels texels(n, parameters.seed);
+    const scene::Camera camera(scene.camera, parameters.width, parameters.height);
+    const bake::TileWindow window(caster, camera, parameters);
+    const bake::RowBaker rows(caster, texels, parameters);
+    struct Scratch {
+        bake::RowBaker::Scratch rows;
+        bake::CoefficientRow row;
+    };
+    tbb::enumerable_thread_specific<Scratch> scratches;
+    const std::size_t pixels = std::size_t{parameters.width} * parameters.height;
+    LinearImage image{parameters.width, parameters.height,
+                      std::vector<V3d>(pixels, V3d(0, 0, 0))};
+    tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t p) {
+        Scratch& scratch = scratches.local();
+        const auto x = static_cast<std::uint32_t>(p % parameters.width);
+        const auto y = static_cast<std::uint32_t>(p / parameters.width);
+        rows.bake(window.trace(x, y), x, y, nullptr, scratch.row, scratch.rows);
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t j = 0; j < light.size(); ++j)
+                image.pixels[p][static_cast<int>(c)] +=
+                    double{scratch.row.rgb[c][j]} * coefficients[c][j];
+        }
+    });
+    return image;
+}
+
+LinearImage relit_from_stored(const scene::Scene& scene,
+                              const bake::BakeParameters& parameters,
+                              const std::vector<Imath::V3f>& light,
+                              const std::filesystem::path& directory) {
+    bake::bake(scene, parameters, directory);
+    return dense_product(*transport::Transport::open(directory), light);
+}
+
+Estimate estimate_from_rows(const scene::Scene& scene,
+                            bake::BakeParameters parameters,
+                            const std::vector<Imath::V3f>& light,
+                            std::uint32_t seeds) {
+    const std::size_t pixels = std::size_t{parameters.width} * parameters.height;
+    Estimate estimate{std::vector<V3d>(pixels, V3d(0, 0, 0)),
+                      std::vector<V3d>(pixels, V3d(0, 0, 0)), seeds};
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        parameters.seed = seed + 1;
+        const LinearImage image = relit_from_rows(scene, parameters, light);
+        for (std::size_t p = 0; p < pixels; ++p) {
+            const V3d step = image.pixels[p] - estimate.mean[p];
+            estimate.mean[p] += step / (seed + 1.0);
+            estimate.variance[p] += step * (image.pixels[p] - estimate.mean[p]);
+        }
+    }
+    for (V3d& variance : estimate.variance)
+        variance /= seeds * (seeds - 1.0);
+    return estimate;
+}
+
+double relative_l2(const std::vector<V3d>& image, const std::vector<V3d>& truth) {
+    double error = 0;
+    double energy = 0;
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+        error += (image[p] - truth[p]).length2();
+        energy += truth[p].length2();
+    }
+    return std::sqrt(error / energy);
+}
+
+}  // namespace relume::test

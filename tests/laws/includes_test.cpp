@@ -1,0 +1,123 @@
+// Which part of the project may include which: no upward or sideways includes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace relume {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Folder → folders it may include from, itself not named. The longest matching folder counts.
+const std::map<std::string, std::set<std::string>>& allowed_includes() {
+    static const std::map<std::string, std::set<std::string>> allowed{
+        {"protocol/basis", {}},
+        {"protocol/transport", {"protocol/basis"}},
+        {"protocol/wire", {}},
+        {"precompute/scene", {"protocol/basis"}},
+        {"precompute/bake", {"precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"server/light", {"protocol/basis", "protocol/wire"}},
+        {"server/engine",
+         {"protocol/basis", "protocol/transport", "protocol/wire", "server/light"}},
+        {"server/net",
+         {"protocol/basis", "protocol/transport", "protocol/wire", "server/light",
+          "server/engine"}},
+        {"client/cli", {"protocol/wire"}},
+    };
+    return allowed;
+}
+
+std::string part_of(const std::string& path) {
+    std::string best;
+    for (const auto& [folder, allowed] : allowed_includes()) {
+        if (path.rfind(folder + "/", 0) == 0 && folder.size() > best.size())
+            best = folder;
+    }
+    return best;
+}
+
+std::vector<fs::path> sources_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension == ".h" || extension == ".cpp")
+            files.push_back(entry.path());
+    }
+    return files;
+}
+
+// Includes of one file that its folder does not allow.
+std::vector<std::string> forbidden_includes(const std::string& own_path, std::istream& source) {
+    static const std::regex kInclude(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
+    static const std::regex kOurs(R"(^(protocol|precompute|server|client|tests)/.*)");
+    const std::string part = part_of(own_path);
+    const std::set<std::string>& allowed = allowed_includes().at(part);
+    std::vector<std::string> forbidden;
+    std::string line;
+    while (std::getline(source, line)) {
+        std::smatch match;
+        if (!std::regex_search(line, match, kInclude))
+            continue;
+        const std::string included = match[1];
+        if (!std::regex_match(included, kOurs))
+            continue;
+        const std::string other = part_of(included);
+        if (other != part && allowed.count(other) == 0)
+            forbidden.push_back(included);
+    }
+    return forbidden;
+}
+
+TEST(Includes, GoDownwardsOnly) {
+    const fs::path root = RELUME_SOURCE_DIR;
+    std::size_t files = 0;
+    for (const auto& [folder, allowed] : allowed_includes()) {
+        for (const fs::path& file : sources_below(root / folder)) {
+            std::ifstream stream(file);
+            const std::string own = fs::relative(file, root).generic_string();
+            for (const std::string& included : forbidden_includes(own, stream))
+                ADD_FAILURE() << own << " includes " << included;
+            ++files;
+        }
+    }
+    EXPECT_GT(files, 50U);
+}
+
+// Every folder with sources has a rule, so that a new one cannot slip by.
+TEST(Includes, EveryFolderHasARule) {
+    const fs::path root = RELUME_SOURCE_DIR;
+    for (const char* top : {"protocol", "precompute", "server", "client"}) {
+        for (const fs::path& file : sources_below(root / top)) {
+            const std::string own = fs::relative(file, root).generic_string();
+            if (own.find("node_modules") == std::string::npos) {
+                EXPECT_FALSE(part_of(own).empty()) << own;
+            }
+        }
+    }
+}
+
+TEST(Includes, ForbiddenOnesAreSeen) {
+    const auto forbidden = [](const std::string& path, const std::string& text) {
+        std::istringstream source(text);
+        return forbidden_includes(path, source);
+    };
+    EXPECT_EQ(forbidden("precompute/bake/a.cpp", "#include \"server/engine/b.h\"\n").size(),
+              1U);
+    EXPECT_EQ(forbidden("server/engine/a.h", "  #  include <server/net/b.h>\n").size(), 1U);
+    EXPECT_EQ(forbidden("protocol/basis/a.h", "#include \"protocol/transport/b.h\"\n").size(),
+              1U);
+    EXPECT_EQ(forbidden("server/net/a.h", "#include \"tests/support/b.h\"\n").size(), 1U);
+    EXPECT_TRUE(forbidden("server/net/a.h", "#include \"server/engine/b.h\"\n").empty());
+    EXPECT_TRUE(forbidden("server/net/a.h", "#include <vector>\n").empty());
+}
+
+}  // namespace
+}  // namespace relume
