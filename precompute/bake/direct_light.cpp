@@ -12,19 +12,26 @@ namespace {
 // Where in the texels the rays of a pixel go, relative to another: spread evenly over any small
 // neighbourhood of pixels (Roberts' R2 sequence along both axes), so that what noise is left at
 // shadow edges is fine-grained.
-Imath::V2f jitter_shift(std::uint32_t x,
-                        std::uint32_t y,
-                        std::uint32_t surface,
-                        std::uint64_t seed) {
-    const std::uint64_t bits = transport::mix_bits(transport::mix_bits(seed) + surface);
+JitterShift jitter_shift(std::uint32_t x,
+                         std::uint32_t y,
+                         std::uint32_t surface,
+                         std::uint64_t seed) {
     const double along = 0.7548776662466927 * x + 0.5698402909980532 * y;
     const double across = 0.5698402909980532 * x + 0.2451223337533073 * y;
     const auto fraction = [](double value) {
         const double whole = static_cast<double>(static_cast<std::uint64_t>(value));
         return std::min(static_cast<float>(value - whole), 0x1.fffffep-1F);
     };
-    return {fraction(along + transport::unit_float(bits)),
-            fraction(across + transport::unit_float(bits << 32U))};
+    JitterShift shift;
+    const std::uint64_t key = transport::mix_bits(transport::mix_bits(seed) + surface);
+    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        // Each lane walks the sequence from a place and in an order of its own.
+        const std::uint64_t bits = transport::mix_bits(key + lane);
+        const auto stride = static_cast<double>(1 + 2 * lane);
+        shift.column[lane] = fraction(stride * along + transport::unit_float(bits));
+        shift.row[lane] = fraction(stride * across + transport::unit_float(bits << 32U));
+    }
+    return shift;
 }
 
 float sum(const std::vector<float>& values) {
@@ -87,7 +94,7 @@ void DirectLight::compute(const PixelView& view,
 }
 
 void DirectLight::light_surface(const PixelSurface& surface,
-                                const Imath::V2f& shift,
+                                const JitterShift& shift,
                                 Scratch& scratch) const {
     Reflection& reflection = scratch.reflection;
     reflect_light(texels_, surface.point, reflection);
@@ -113,7 +120,7 @@ void DirectLight::light_surface(const PixelSurface& surface,
 // Every part of a split texel has a ray of its own.
 void DirectLight::split_visibility(const PixelSurface& surface,
                                    const Imath::V3f& origin,
-                                   const Imath::V2f& shift,
+                                   const JitterShift& shift,
                                    Scratch& scratch) const {
     constexpr float kPart = 1.0F / LightTexels::kTileSide;
     Reflection& reflection = scratch.reflection;
@@ -123,8 +130,9 @@ void DirectLight::split_visibility(const PixelSurface& surface,
         for (std::uint32_t part = 0; part < kPacketSize; ++part) {
             const auto column = static_cast<float>(part % LightTexels::kTileSide);
             const auto row = static_cast<float>(part / LightTexels::kTileSide);
-            const Imath::V3f d = texels_.cube_point(split.place, (column + shift.x) * kPart,
-                                                    (row + shift.y) * kPart);
+            const Imath::V3f d =
+                texels_.cube_point(split.place, (column + shift.column[part]) * kPart,
+                                   (row + shift.row[part]) * kPart);
             directions.x[part] = d.x;
             directions.y[part] = d.y;
             directions.z[part] = d.z;

@@ -44,11 +44,11 @@ class DirectLight {
 
   private:
     void light_surface(const PixelSurface& surface,
-                       const Imath::V2f& shift,
+                       const JitterShift& shift,
                        Scratch& scratch) const;
     void split_visibility(const PixelSurface& surface,
                           const Imath::V3f& origin,
-                          const Imath::V2f& shift,
+                          const JitterShift& shift,
                           Scratch& scratch) const;
 
     const RayCaster& caster_;

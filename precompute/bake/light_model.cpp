@@ -12,9 +12,9 @@ namespace relume::bake {
 std::vector<float> natural_light(std::uint32_t n, std::uint64_t seed) {
     const std::size_t count = basis::texel_count(n);
     const auto side = static_cast<float>(n);
-    // Each band has 18·4^b wavelets; with amplitude a·2^−b it has energy 18·a², while the
+    // Band b has 18·4^b wavelets; with amplitude a·2^(−b/2) it has energy 18·2^b·a², while the
     // constant has 6·n².
-    const float amplitude = side / std::sqrt(3.0F * static_cast<float>(basis::band_count(n)));
+    const float amplitude = side / std::sqrt(3.0F * (side - 1));
     std::vector<float> light(count);
     for (std::size_t j = 0; j < count; ++j) {
         if (j % (std::size_t{n} * n) == 0) {
@@ -25,8 +25,8 @@ std::vector<float> natural_light(std::uint32_t n, std::uint64_t seed) {
         // Box and Muller's normal variate.
         const float radius = std::sqrt(-2.0F * std::log(1.0F - transport::unit_float(bits)));
         const float angle = 2 * std::numbers::pi_v<float> * transport::unit_float(bits << 32U);
-        const auto band = static_cast<int>(basis::band_from_coefficient(n, j));
-        light[j] = amplitude * std::ldexp(radius * std::cos(angle), -band);
+        const auto band = static_cast<float>(basis::band_from_coefficient(n, j));
+        light[j] = amplitude * radius * std::cos(angle) * std::exp2(-kNaturalFalloff * band);
     }
     return light;
 }

@@ -92,15 +92,6 @@ SphericalPolygon LightTexels::polygon(std::size_t place) const {
          Imath::V3d(cube_point(place, 1, 1)), Imath::V3d(cube_point(place, 0, 1))});
 }
 
-Imath::V3f LightTexels::cube_point(std::size_t place,
-                                   float column_offset,
-                                   float row_offset) const {
-    const Tile& tile = tiles_[place / kPacketSize];
-    const auto lane = static_cast<std::uint32_t>(place % kPacketSize);
-    return tile.origin + tile.columns * (static_cast<float>(lane % kTileSide) + column_offset) +
-           tile.rows * (static_cast<float>(lane / kTileSide) + row_offset);
-}
-
 void LightTexels::cube_points(std::size_t packet,
                               std::span<const float, kPacketSize> column_offset,
                               std::span<const float, kPacketSize> row_offset,

@@ -53,7 +53,13 @@ class LightTexels {
     // Not normalised; offsets from the texel's corner in [0, 1].
     [[nodiscard]] Imath::V3f cube_point(std::size_t place,
                                         float column_offset,
-                                        float row_offset) const;
+                                        float row_offset) const {
+        const Tile& tile = tiles_[place / kPacketSize];
+        const auto lane = static_cast<std::uint32_t>(place % kPacketSize);
+        return tile.origin +
+               tile.columns * (static_cast<float>(lane % kTileSide) + column_offset) +
+               tile.rows * (static_cast<float>(lane / kTileSide) + row_offset);
+    }
     // The same for all places of a packet at once.
     void cube_points(std::size_t packet,
                      std::span<const float, kPacketSize> column_offset,

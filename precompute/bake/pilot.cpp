@@ -1,6 +1,7 @@
 #include "precompute/bake/pilot.h"
 
 #include "precompute/bake/colour_split.h"
+#include "precompute/bake/light_model.h"
 #include "protocol/basis/haar.h"
 #include "protocol/transport/hash.h"
 
@@ -11,15 +12,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace relume::bake {
 namespace {
 
 // Relative L2 below which one channel under a tint is enough.
 constexpr double kColourless = 1e-3;
-constexpr float kStepGrowth = 0.5F;  // β
+constexpr float kStepGrowth = 0.7F;  // β
+constexpr std::size_t kMostPixels = 512;
 constexpr std::uint64_t kSampleBytes = std::uint64_t{96} << 20U;
-constexpr std::size_t kMostPixels = 4096;
 
 struct Pixel {
     std::uint32_t x = 0;
@@ -31,7 +33,9 @@ std::vector<Pixel> pilot_pixels(const transport::TileGrid& image,
                                 std::size_t row_bytes,
                                 std::uint64_t seed) {
     const std::size_t wanted = std::clamp<std::size_t>(
-        static_cast<std::size_t>(kSampleBytes / row_bytes), 64, kMostPixels);
+        std::min<std::size_t>(static_cast<std::size_t>(kSampleBytes / row_bytes),
+                              std::size_t{image.width} * image.height / 16),
+        64, kMostPixels);
     const double spacing = std::max(
         1.0, std::sqrt(double(image.width) * image.height / static_cast<double>(wanted)));
     std::vector<Pixel> pixels;
@@ -76,7 +80,7 @@ class StepChooser {
         for (std::size_t j = 0; j < count; ++j) {
             const auto band =
                 static_cast<float>(basis::band_from_coefficient(face_resolution, j));
-            light_energy_[j] = std::exp2(-2 * band);
+            light_energy_[j] = std::exp2(-2 * kNaturalFalloff * band);
             growth_[j] = std::exp2(kStepGrowth * band);
         }
         for (std::uint32_t k = 0; k < colour.channels; ++k) {
@@ -91,9 +95,11 @@ class StepChooser {
 
     [[nodiscard]] std::vector<float> steps() const {
         const std::size_t count = growth_.size();
-        float low = 1e-12F;
-        float high = 1e6F;
-        constexpr int kHalvings = 50;
+        // Steps from a billionth of the largest value to all of it.
+        constexpr float kRange = 0x1p-30F;
+        constexpr int kHalvings = 16;
+        float high = std::max(largest_, std::numeric_limits<float>::min() / kRange);
+        float low = high * kRange;
         for (int i = 0; i < kHalvings; ++i) {
             const float middle = std::sqrt(low * high);
             (error(middle) < target_ ? low : high) = middle;
@@ -110,13 +116,14 @@ class StepChooser {
   private:
     // What [Ng03]'s quantiser costs: 2^bits levels over the range of each column of the first
     // channel.
-    [[nodiscard]] double column_range_error(std::uint32_t bits) const {
+    double column_range_error(std::uint32_t bits) {
         std::vector<float> step(growth_.size(), 0.0F);
         for (const PilotRow& row : rows_) {
             for (std::size_t j = 0; j < step.size(); ++j) {
                 step[j] = std::max(step[j], std::abs(row.channel[0][j]));
             }
         }
+        largest_ = *std::max_element(step.begin(), step.end());
         const auto levels = static_cast<float>((1U << (bits - 1)) - 1);
         for (float& range : step) {
             range /= levels;
@@ -161,6 +168,7 @@ class StepChooser {
     std::vector<float> light_energy_;  // by coefficient
     std::vector<float> growth_;        // 2^(β·band)
     std::vector<float> channel_scale_;
+    float largest_ = 0;  // value in the first channel
     double target_ = 0;
 };
 

@@ -45,6 +45,7 @@ RayCaster::RayCaster(const scene::Scene& scene)
     }
     accelerator_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(accelerator_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(accelerator_.get(), RTC_BUILD_QUALITY_HIGH);
     contexts_.reserve(scene.meshes.size());
     for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
         contexts_.push_back({scene_, i});

@@ -1,10 +1,14 @@
 #include "precompute/bake/reflection.h"
 
+#include "protocol/basis/cubemap.h"
+
 #include <Imath/ImathVec.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 namespace relume::bake {
 namespace {
@@ -83,31 +87,40 @@ void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflecti
         [&](std::size_t first) { std::fill_n(grey + first, kPacketSize, 0.0F); });
 }
 
-// How wide the glossy lobe is, in radians of the light's direction.
-float lobe_width(const scene::Bsdf& bsdf) {
-    constexpr float kHalfVectorDoubles = 2.0F;
-    return bsdf.model() == scene::BsdfModel::ggx ? kHalfVectorDoubles * bsdf.alpha()
-                                                 : std::sqrt(2.0F / (bsdf.exponent() + 2.0F));
+// How narrow the glossy lobe is in its narrowest direction, in radians of the light's
+// direction. A half vector's spread is doubled in the plane of incidence and shrinks with the
+// cosine across.
+float lobe_width(const scene::SurfacePoint& point) {
+    constexpr float kLeastCosine = 0.1F;
+    const scene::Bsdf& bsdf = point.bsdf;
+    return bsdf.model() == scene::BsdfModel::ggx
+               ? 2.0F * bsdf.alpha() * std::max(point.wo.z, kLeastCosine)
+               : std::sqrt(2.0F / (bsdf.exponent() + 2.0F));
 }
 
-// Parts per side of a texel, a multiple of four; 0 where the centroid alone will do.
-class TexelSplitter {
+// How a texel's integral is to be found.
+// `coarse` and `fine` are grids of midpoints.
+enum class TexelRule : std::uint8_t { centroid, coarse, fine, sampled };
+
+class TexelRules {
   public:
-    TexelSplitter(const LightTexels& texels, const scene::SurfacePoint& point)
-        : width_(lobe_width(point.bsdf)),
+    TexelRules(const LightTexels& texels, const scene::SurfacePoint& point)
+        : width_(lobe_width(point)),
           texel_(2.0F / static_cast<float>(texels.face_resolution())),
           mirror_(point.shading.to_world({-point.wo.x, -point.wo.y, point.wo.z})) {}
 
-    [[nodiscard]] std::uint32_t parts_per_side(const Imath::V3f& direction) const {
-        constexpr float kPartsPerWidth = 3.0F;
-        constexpr float kSmoothEnough = 1.5F;
-        constexpr float kMost = 32.0F;
+    [[nodiscard]] TexelRule rule(const Imath::V3f& direction) const {
+        // Texels per scale on which the lobe changes here: its width, or further out its
+        // distance from the peak.
         const float away = (direction - mirror_).length();
-        const float parts = kPartsPerWidth * texel_ / std::max(width_, 0.5F * away);
-        if (parts < kSmoothEnough) {
-            return 0;
-        }
-        return 4 * static_cast<std::uint32_t>(std::ceil(std::min(parts, kMost) / 4));
+        const float coarseness = texel_ / std::max(width_, 0.5F * away);
+        constexpr float kSmooth = 0.2F;
+        constexpr float kCoarseResolves = 0.6F;
+        constexpr float kFineResolves = 2.5F;
+        return coarseness < kSmooth           ? TexelRule::centroid
+               : coarseness < kCoarseResolves ? TexelRule::coarse
+               : coarseness < kFineResolves   ? TexelRule::fine
+                                              : TexelRule::sampled;
     }
 
   private:
@@ -116,42 +129,125 @@ class TexelSplitter {
     Imath::V3f mirror_;
 };
 
-// The sixteen parts of one texel, each by a grid of equal parts of its own.
-SplitTexel split_texel(const LightTexels& texels,
-                       const scene::SurfacePoint& point,
-                       std::size_t place,
-                       std::uint32_t per_side) {
-    const std::size_t count = std::size_t{per_side} * per_side;
-    const auto cell = 1.0F / static_cast<float>(per_side);
+// The sixteen parts of one texel by the midpoints of a grid of kSide×kSide.
+template <std::uint32_t kSide>
+SplitTexel grid_texel(const LightTexels& texels,
+                      const scene::SurfacePoint& point,
+                      std::size_t place) {
+    constexpr std::size_t kCount = std::size_t{kSide} * kSide;
+    constexpr float kCell = 1.0F / kSide;
     const float texel = 2.0F / static_cast<float>(texels.face_resolution());
-    std::array<std::vector<float>, 3> direction;
-    std::array<std::vector<float>, 3> value;
-    for (int axis = 0; axis < 3; ++axis) {
-        direction[static_cast<std::size_t>(axis)].resize(count);
-        value[static_cast<std::size_t>(axis)].resize(count);
-    }
-    std::vector<float> solid_angle(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::array<std::array<float, kCount>, 3> direction;
+    std::array<std::array<float, kCount>, 3> value;
+    std::array<float, kCount> solid_angle;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
         const Imath::V3f cube =
-            texels.cube_point(place, (static_cast<float>(i % per_side) + 0.5F) * cell,
-                              (static_cast<float>(i / per_side) + 0.5F) * cell);
+            texels.cube_point(place, (static_cast<float>(i % kSide) + 0.5F) * kCell,
+                              (static_cast<float>(i / kSide) + 0.5F) * kCell);
         const float inverse = 1.0F / cube.length();
         for (int axis = 0; axis < 3; ++axis) {
             direction[static_cast<std::size_t>(axis)][i] = cube[axis] * inverse;
         }
         // dω = du dv / |cube point|³.
-        solid_angle[i] = texel * texel * cell * cell * inverse * inverse * inverse;
+        solid_angle[i] = texel * texel * kCell * kCell * inverse * inverse * inverse;
     }
     point.reflect({direction[0], direction[1], direction[2]}, {value[0], value[1], value[2]});
     SplitTexel split{.place = static_cast<std::uint32_t>(place)};
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::size_t part =
-            std::size_t{(i / per_side) * 4 / per_side} * 4 + (i % per_side) * 4 / per_side;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const std::size_t part = std::size_t{i / kSide * 4 / kSide} * 4 + i % kSide * 4 / kSide;
         for (std::size_t c = 0; c < 3; ++c) {
             split.rgb[c][part] += value[c][i] * solid_angle[i];
         }
     }
     return split;
+}
+
+// Roberts' R3 sequence: any number of points, evenly spread over the unit cube.
+std::array<float, 3> even_point(std::uint32_t i) {
+    constexpr std::array<double, 3> kSteps{0.8191725133961645, 0.6710436067037893,
+                                           0.5497004779019703};
+    std::array<float, 3> point{};
+    for (std::size_t axis = 0; axis < point.size(); ++axis) {
+        const double along = 0.5 + kSteps[axis] * i;
+        const double whole = static_cast<double>(static_cast<std::uint32_t>(along));
+        point[axis] = std::min(static_cast<float>(along - whole), 0x1.fffffep-1F);
+    }
+    return point;
+}
+
+// Texels in which the lobe peaks too sharply for any grid: the lobe's own samples, counted
+// where they fall. Whatever its width, its energy is kept. `peaks` have their places set.
+void sample_peaks(const LightTexels& texels,
+                  const scene::SurfacePoint& point,
+                  std::span<SplitTexel> peaks) {
+    constexpr std::uint32_t kSamples = 2048;
+    const std::uint32_t n = texels.face_resolution();
+    const auto side = static_cast<float>(n);
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const auto [lobe, u, v] = even_point(i);
+        const auto sample = point.sample(lobe, {u, v});
+        if (sample.pdf <= 0) {
+            continue;
+        }
+        const basis::FacePoint at = basis::face_point_from_direction(sample.wi);
+        const basis::Texel texel = basis::texel_from_direction(n, sample.wi);
+        const std::size_t place =
+            texels.place_from_texel_index(basis::index_from_texel(n, texel));
+        const auto found =
+            std::find_if(peaks.begin(), peaks.end(),
+                         [place](const SplitTexel& peak) { return peak.place == place; });
+        if (found == peaks.end()) {
+            continue;
+        }
+        const auto quarter = [side](float coordinate, std::uint32_t whole) {
+            const float offset = (coordinate + 1) * 0.5F * side - static_cast<float>(whole);
+            return static_cast<std::size_t>(std::clamp(offset * 4, 0.0F, 3.0F));
+        };
+        const std::size_t part = quarter(at.v, texel.row) * 4 + quarter(at.u, texel.column);
+        for (std::size_t c = 0; c < 3; ++c) {
+            found->rgb[c][part] += sample.weight[static_cast<int>(c)] / kSamples;
+        }
+    }
+}
+
+void set_sum(const SplitTexel& split, Reflection& out) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.rgb[c][split.place] =
+            std::accumulate(split.rgb[c].begin(), split.rgb[c].end(), 0.0F);
+    }
+}
+
+void split_texels(const LightTexels& texels,
+                  const scene::SurfacePoint& point,
+                  Reflection& out) {
+    const TexelRules rules(texels, point);
+    std::vector<SplitTexel> peaks;
+    for (std::size_t place = 0; place < texels.size(); ++place) {
+        if (out.projected[place] <= 0) {
+            continue;
+        }
+        switch (rules.rule({texels.direction_x()[place], texels.direction_y()[place],
+                            texels.direction_z()[place]})) {
+            case TexelRule::centroid:
+                break;
+            case TexelRule::coarse:
+                set_sum(grid_texel<4>(texels, point, place), out);
+                break;
+            case TexelRule::fine:
+                out.split.push_back(grid_texel<8>(texels, point, place));
+                break;
+            case TexelRule::sampled:
+                peaks.push_back({.place = static_cast<std::uint32_t>(place)});
+                break;
+        }
+    }
+    if (!peaks.empty()) {
+        sample_peaks(texels, point, peaks);
+        out.split.insert(out.split.end(), peaks.begin(), peaks.end());
+    }
+    for (const SplitTexel& split : out.split) {
+        set_sum(split, out);
+    }
 }
 
 void reflect_glossy(const LightTexels& texels,
@@ -201,25 +297,7 @@ void reflect_glossy(const LightTexels& texels,
             }
         }
     }
-    const TexelSplitter splitter(texels, point);
-    for (std::size_t place = 0; place < texels.size(); ++place) {
-        if (out.projected[place] <= 0) {
-            continue;
-        }
-        const std::uint32_t per_side = splitter.parts_per_side(
-            {centroid[0][place], centroid[1][place], centroid[2][place]});
-        if (per_side == 0) {
-            continue;
-        }
-        const SplitTexel split = split_texel(texels, point, place, per_side);
-        for (std::size_t c = 0; c < 3; ++c) {
-            out.rgb[c][place] = 0;
-            for (const float value : split.rgb[c]) {
-                out.rgb[c][place] += value;
-            }
-        }
-        out.split.push_back(split);
-    }
+    split_texels(texels, point, out);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 //
 // - Lambert: exact. The texel's vector irradiance times the normal; texels that cross the
 //   geometric or the shading horizon are clipped.
-// - Glossy: the lobe at the texel's centroid where it is smooth across the texel; quadrature
-// over
-//   sixteen or more parts where it is not, so that a highlight narrower than a texel keeps its
-//   energy. Those parts are kept apart, for each has a visibility of its own.
+// - Glossy: the lobe at the texel's centroid where it is smooth across the texel; a grid of
+//   midpoints where it is not; and where it peaks too sharply for that, the lobe's own samples,
+//   so that a highlight however narrow keeps its energy. Texels near the peak are kept in
+//   sixteen parts, for each part has a visibility of its own.
 #pragma once
 
 #include "precompute/bake/light_texels.h"

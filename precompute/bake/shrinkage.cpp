@@ -98,7 +98,8 @@ void project_with_shrinkage(std::uint32_t face_resolution,
         std::size_t parents = 0;
         for (std::size_t i = 0; i < nodes.size();) {
             const std::uint32_t key = nodes[i].key >> 2U;
-            std::array<Imath::V3f, 4> quarter{};
+            std::array<Imath::V3f, 4> quarter;
+            quarter.fill(Imath::V3f(0, 0, 0));  // Imath's default is no value at all
             Node parent{.key = key};
             for (; i < nodes.size() && nodes[i].key >> 2U == key; ++i) {
                 quarter[nodes[i].key & 3U] = nodes[i].sum;

@@ -35,7 +35,7 @@ Visibility::Visibility(const RayCaster& caster,
 }
 
 void Visibility::compute(const Imath::V3f& origin,
-                         const Imath::V2f& shift,
+                         const JitterShift& shift,
                          std::span<const float> wanted,
                          std::span<float> open,
                          Scratch& scratch) const {
@@ -49,7 +49,7 @@ void Visibility::compute(const Imath::V3f& origin,
 }
 
 void Visibility::cast_first(const Imath::V3f& origin,
-                            const Imath::V2f& shift,
+                            const JitterShift& shift,
                             std::span<const float> wanted,
                             std::span<float> open,
                             Scratch& scratch) const {
@@ -69,8 +69,9 @@ void Visibility::cast_first(const Imath::V3f& origin,
             continue;
         }
         for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-            columns[lane] = wrap_once(texels_.jitter_column()[first + lane] + shift.x);
-            rows[lane] = wrap_once(texels_.jitter_row()[first + lane] + shift.y);
+            columns[lane] =
+                wrap_once(texels_.jitter_column()[first + lane] + shift.column[lane]);
+            rows[lane] = wrap_once(texels_.jitter_row()[first + lane] + shift.row[lane]);
         }
         texels_.cube_points(packet, columns, rows, directions);
         const std::uint32_t free = caster_.unoccluded(origin, directions, mask);
@@ -109,16 +110,17 @@ void Visibility::find_edges(Scratch& scratch) const {
 }
 
 Imath::V3f Visibility::direction(std::size_t place,
-                                 const Imath::V2f& shift,
+                                 const JitterShift& shift,
                                  std::uint32_t sample) const {
     const Imath::V2f& offset = samples_[sample];
-    return texels_.cube_point(
-        place, wrap_once(wrap_once(texels_.jitter_column()[place] + shift.x) + offset.x),
-        wrap_once(wrap_once(texels_.jitter_row()[place] + shift.y) + offset.y));
+    const std::size_t lane = place % kPacketSize;
+    const float column = wrap_once(texels_.jitter_column()[place] + shift.column[lane]);
+    const float row = wrap_once(texels_.jitter_row()[place] + shift.row[lane]);
+    return texels_.cube_point(place, wrap_once(column + offset.x), wrap_once(row + offset.y));
 }
 
 void Visibility::refine_edges(const Imath::V3f& origin,
-                              const Imath::V2f& shift,
+                              const JitterShift& shift,
                               std::span<float> open,
                               Scratch& scratch) const {
     const auto extra = static_cast<std::uint32_t>(samples_.size() - 1);

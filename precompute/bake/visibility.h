@@ -11,11 +11,19 @@
 
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace relume::bake {
+
+// Moves the jitter of a point's texels, each part in [0, 1). One pair for each place of a
+// packet: texels that are neighbours are moved independently of each other.
+struct JitterShift {
+    std::array<float, kPacketSize> column{};
+    std::array<float, kPacketSize> row{};
+};
 
 class Visibility {
   public:
@@ -29,27 +37,26 @@ class Visibility {
         std::uint64_t rays = 0;  // cast so far
     };
 
-    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. `shift` moves
-    // the jitter of the whole point, each part in [0, 1).
+    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere.
     void compute(const Imath::V3f& origin,
-                 const Imath::V2f& shift,
+                 const JitterShift& shift,
                  std::span<const float> wanted,
                  std::span<float> open,
                  Scratch& scratch) const;
 
   private:
     void cast_first(const Imath::V3f& origin,
-                    const Imath::V2f& shift,
+                    const JitterShift& shift,
                     std::span<const float> wanted,
                     std::span<float> open,
                     Scratch& scratch) const;
     void find_edges(Scratch& scratch) const;
     void refine_edges(const Imath::V3f& origin,
-                      const Imath::V2f& shift,
+                      const JitterShift& shift,
                       std::span<float> open,
                       Scratch& scratch) const;
     [[nodiscard]] Imath::V3f direction(std::size_t place,
-                                       const Imath::V2f& shift,
+                                       const JitterShift& shift,
                                        std::uint32_t sample) const;
 
     const RayCaster& caster_;

@@ -64,7 +64,7 @@ TEST_F(Command, BakesABuiltinSceneAndLooksAtIt) {
 }
 
 TEST_F(Command, NamesWhatIsWrongWithTheWords) {
-    expect_fault({}, "scene file");
+    expect_fault({"-o", file("x")}, "scene file");
     expect_fault({"--builtin", "plane"}, "-o");
     expect_fault({"--builtin", "castle", "-o", file("x")}, "castle");
     expect_fault({file("missing.glb"), "-o", file("x")}, "missing.glb");

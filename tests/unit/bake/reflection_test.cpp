@@ -1,5 +1,7 @@
 #include "precompute/bake/reflection.h"
 
+#include "precompute/bake/sobol.h"
+
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -24,16 +26,12 @@ double sum(const std::vector<float>& values) {
 
 // ∫ f cos dω by sampling the lobe itself.
 Imath::V3d sampled_albedo(const scene::SurfacePoint& point) {
-    constexpr int kSide = 200;
+    constexpr std::uint32_t kSamples = 1U << 17U;
     Imath::V3d total{0, 0, 0};
-    for (int lobe = 0; lobe < 8; ++lobe) {
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const Imath::V2f u{(static_cast<float>(i % kSide) + 0.5F) / kSide,
-                               (static_cast<float>(i / kSide) + 0.5F) / kSide};
-            total += Imath::V3d(point.sample((static_cast<float>(lobe) + 0.5F) / 8, u).weight);
-        }
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        total += Imath::V3d(point.sample(sobol_point(i, 8).x, sobol_point(i, 9)).weight);
     }
-    return total / (8.0 * kSide * kSide);
+    return total / kSamples;
 }
 
 TEST(Reflection, ConstantLightOnUnoccludedLambertGivesItsAlbedoExactly) {
@@ -111,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Lobe{"rough", scene::Bsdf::ggx({0.4F, 0.2F, 0.1F}, 0.3F, 0.6F)},
                     Lobe{"phong",
                          scene::Bsdf::phong({0.3F, 0.3F, 0.3F}, {0.4F, 0.4F, 0.4F}, 500)}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 }  // namespace relume::bake
