@@ -67,6 +67,7 @@ std::string upload_name(const fs::path& file,
 }
 
 std::string environment_on_server(const Url& server,
+                                  const std::string& token,
                                   const std::string& file_or_name,
                                   const std::string& projection) {
     std::error_code ignored;
@@ -89,8 +90,12 @@ std::string environment_on_server(const Url& server,
     if (!projection.empty()) {
         target += "&projection=" + percent_encoded(projection);
     }
+    const std::string request = "POST " + target;
+    if (!token.empty()) {
+        target += "&token=" + percent_encoded(token);
+    }
     const nlohmann::json answer = json_from_answer(
-        http_post(server, target, std::move(content), kUploadTimeout), "POST " + target);
+        http_post(server, target, std::move(content), kUploadTimeout), request);
     for (const auto& warning : answer.value("warnings", nlohmann::json::array())) {
         spdlog::warn("{}: {}", file_or_name,
                      warning.is_string() ? warning.get<std::string>() : warning.dump());

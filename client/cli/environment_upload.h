@@ -18,8 +18,9 @@ namespace relume::cli {
 
 // Returns the environment's name on the server. A readable file is uploaded, unless the server
 // has it from before; anything else is taken as a name. `projection` is "" for the server's own
-// guess. Throws ClientError.
+// guess, `token` "" where it asks for none. Throws ClientError.
 [[nodiscard]] std::string environment_on_server(const Url& server,
+                                                const std::string& token,
                                                 const std::string& file_or_name,
                                                 const std::string& projection);
 

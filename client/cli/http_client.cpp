@@ -34,8 +34,11 @@ T finish(asio::io_context& io, std::future<T> result) {
 HttpAnswer exchange(const Url& server,
                     http::request<http::string_body> request,
                     std::chrono::seconds timeout) {
-    const std::string what = fmt::format("{} http://{}{}", std::string(request.method_string()),
-                                         server.authority(), std::string(request.target()));
+    // Without the query: it may hold a token.
+    const std::string target(request.target());
+    const std::string what =
+        fmt::format("{} http://{}{}", std::string(request.method_string()), server.authority(),
+                    target.substr(0, target.find('?')));
     request.set(http::field::host, server.authority());
     request.set(http::field::user_agent, "relume");
     request.set(http::field::connection, "close");

@@ -63,7 +63,8 @@ void render(const RenderOptions& options) {
     const std::string environment =
         options.environment.empty()
             ? std::string()
-            : environment_on_server(server, options.environment, options.projection);
+            : environment_on_server(server, options.server.token, options.environment,
+                                    options.projection);
     nlohmann::json patch = patch_from_options(options.edits, environment);
     // A room settles where its target error lets it. One that is not ours stays as it is unless
     // it is edited anyway.

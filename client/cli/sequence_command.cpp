@@ -47,8 +47,8 @@ void play(const SequenceCommandOptions& options) {
     sequence.script = script_from_file(options.script);
     const Url server = url_from_text(options.server.url);
     if (!options.environment.empty()) {
-        sequence.script.start["environment"]["name"] =
-            environment_on_server(server, options.environment, options.projection);
+        sequence.script.start["environment"]["name"] = environment_on_server(
+            server, options.server.token, options.environment, options.projection);
     }
     sequence.session = {
         .server = server,

@@ -25,10 +25,10 @@ TEST(UploadNames, FollowContentAndProjection) {
 
 TEST(Environments, ANameNeedsNoServerButAMissingFileIsNamed) {
     const Url nowhere{"127.0.0.1", "1", ""};
-    EXPECT_EQ(environment_on_server(nowhere, "city", ""), "city");
-    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "missing.hdr", "")),
+    EXPECT_EQ(environment_on_server(nowhere, "", "city", ""), "city");
+    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "", "missing.hdr", "")),
                  ClientError);
-    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "a/b", "")), ClientError);
+    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "", "a/b", "")), ClientError);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// Programs of the project as processes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace relume::test {
+
+// A process that is running; killed with this object if it still is.
+class Program {
+  public:
+    // Standard output and error go to files in `folder`, named after `name`. Throws
+    // std::system_error when the program cannot be started.
+    Program(const std::filesystem::path& program,
+            const std::vector<std::string>& arguments,
+            const std::filesystem::path& folder,
+            const std::string& name);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    Program(Program&&) = delete;
+    Program& operator=(Program&&) = delete;
+
+    void send(int signal) const;
+    // The exit code, or 128 + the signal that ended it.
+    int wait();
+    [[nodiscard]] bool is_running();
+
+    [[nodiscard]] std::string output() const;
+    [[nodiscard]] std::string errors() const;
+
+  private:
+    std::filesystem::path output_;
+    std::filesystem::path errors_;
+    pid_t process_ = -1;
+    int exit_code_ = -1;
+};
+
+}  // namespace relume::test
