@@ -10,8 +10,8 @@ namespace relume::net {
 struct ConnectionOptions {
     std::size_t connections = 1024;  // open at once, of all kinds
     std::uint32_t request_header_bytes = 16 * 1024;
-    // What the system may hold of data sent and not yet received, per connection (it takes twice
-    // that). Its own choice would be megabytes for each client that reads slowly.
+    // What the system may hold of data sent and not yet received, per connection (it takes
+    // twice that). Its own choice would be megabytes for each client that reads slowly.
     std::size_t send_buffer_bytes = 512 * 1024;
     std::size_t concurrent_uploads = 2;  // bodies being read or decoded
     std::uint64_t upload_texels = std::uint64_t{8192} * 4096;

@@ -29,7 +29,7 @@ DisplayTable::DisplayTable(const wire::Display& display) {
     for (std::size_t code = 1; code < 256; ++code) {
         thresholds_[code] = threshold_of(code, display);
     }
-    thresholds_[256] = std::numeric_limits<float>::infinity();
+    thresholds_[256] = std::numeric_limits<float>::quiet_NaN();  // nothing reaches it
     // The table begins below the first threshold, where the code is 0, and ends far above the
     // last one, whatever the exposure.
     first_bin_ = std::bit_cast<std::uint32_t>(thresholds_[1]) >> kBinShift;

@@ -230,6 +230,7 @@ class HttpConnection {
                 co_return false;
             }
         }
+        // Reserves what the peer announced, which admission and the parser have bounded.
         BodyParser body(std::move(parser));
         auto [error, bytes] = co_await http::async_read(stream_, buffer_, body, kNoThrow);
         static_cast<void>(bytes);

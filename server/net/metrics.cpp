@@ -70,6 +70,10 @@ struct Metrics::Families {
         counter(registry,
                 "relume_connections_refused_total",
                 "Connections closed at once because there were too many");
+    Histogram& lighting_seconds =
+        time_histogram(registry,
+                       "relume_lighting_seconds",
+                       "Time from a changed state to its lighting and background");
     Histogram& relight_seconds =
         time_histogram(registry, "relume_relight_seconds", "Time of one relighting step");
     Histogram& compose_seconds = time_histogram(
@@ -94,6 +98,10 @@ Metrics::~Metrics() = default;
 
 std::string Metrics::text() const {
     return prometheus::TextSerializer().Serialize(families_->registry.Collect());
+}
+
+void Metrics::observe_lighting(double seconds) {
+    families_->lighting_seconds.Observe(seconds);
 }
 
 void Metrics::count_step(const engine::StepReport& step, double relight_seconds) {

@@ -26,6 +26,8 @@ class Metrics {
     // The text exposition format, version 0.0.4.
     [[nodiscard]] std::string text() const;
 
+    // From a changed state to lighting coefficients and background.
+    void observe_lighting(double seconds);
     void count_step(const engine::StepReport& step, double relight_seconds);
     void count_image(wire::ImageEncoding encoding,
                      std::size_t bytes,

@@ -78,7 +78,9 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     state_ = state;
     environments_ = environments;
     image_changed_ = true;
-    relight_time_ += Clock::now() - begin;
+    const Clock::duration spent = Clock::now() - begin;
+    metrics_.observe_lighting(seconds(spent));
+    relight_time_ += spent;
     return problems;
 }
 

@@ -27,8 +27,8 @@ namespace asio = boost::asio;
 
 namespace {
 
-// Threads for requests that decode images or read files.
-constexpr std::size_t kSlowRequestThreads = 2;
+// Threads for previews and thumbnails, besides one for each upload being decoded.
+constexpr std::size_t kPreviewThreads = 2;
 constexpr std::chrono::milliseconds kDrainPoll{5};
 
 StaticFiles files_from(const std::filesystem::path& web_root) {
@@ -66,7 +66,7 @@ struct Server::Parts {
               scenes, with_folder(environments, c.environments), workers, metrics, c.rooms)),
           routes(scenes, environments, files, access, readiness, metrics),
           uploads(environments, access, upload_options_from(c)),
-          slow_requests(kSlowRequestThreads),
+          slow_requests(kPreviewThreads + c.connection.concurrent_uploads),
           services{routes,
                    uploads,
                    *rooms,

@@ -1,0 +1,156 @@
+#include "server/net/outbox.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace relume::net {
+namespace {
+
+using nlohmann::json;
+
+SharedImageFrame image(std::uint64_t sequence,
+                       wire::ImageEncoding encoding = wire::ImageEncoding::jpeg) {
+    auto frame = std::make_shared<ImageFrame>();
+    frame->header.sequence = sequence;
+    frame->header.encoding = encoding;
+    return frame;
+}
+
+json taken_text(Outbox& outbox) {
+    const std::optional<Outbox::Item> item = outbox.take();
+    const std::string* const text = item ? std::get_if<std::string>(&*item) : nullptr;
+    return text == nullptr ? json() : json::parse(*text);
+}
+
+std::uint64_t taken_sequence(Outbox& outbox) {
+    const std::optional<Outbox::Item> item = outbox.take();
+    const SharedImageFrame* const frame =
+        item ? std::get_if<SharedImageFrame>(&*item) : nullptr;
+    return frame == nullptr ? 0 : (*frame)->header.sequence;
+}
+
+TEST(Outbox, TheNewestImageReplacesAnUnsentOne) {
+    Outbox outbox(ImageInterest::all, 2);
+    EXPECT_FALSE(outbox.put_image(image(1)));
+    EXPECT_TRUE(outbox.put_image(image(2)));
+    EXPECT_TRUE(outbox.put_image(image(3)));
+    EXPECT_EQ(taken_sequence(outbox), 3U);
+    EXPECT_FALSE(outbox.take().has_value());
+}
+
+TEST(Outbox, NoMoreThanTheBoundIsInFlight) {
+    Outbox outbox(ImageInterest::all, 2);
+    outbox.put_image(image(1));
+    EXPECT_EQ(taken_sequence(outbox), 1U);
+    outbox.put_image(image(2));
+    EXPECT_EQ(taken_sequence(outbox), 2U);
+    EXPECT_FALSE(outbox.wants_moving_image());
+    outbox.put_image(image(3));
+    EXPECT_FALSE(outbox.take().has_value());
+    outbox.put_image(image(4));
+    outbox.acknowledge(1);
+    EXPECT_EQ(taken_sequence(outbox), 4U);
+    EXPECT_FALSE(outbox.take().has_value());
+}
+
+TEST(Outbox, AnAcknowledgementCountsForAllBefore) {
+    Outbox outbox(ImageInterest::all, 2);
+    for (const std::uint64_t sequence : {5U, 9U}) {
+        outbox.put_image(image(sequence));
+        EXPECT_EQ(taken_sequence(outbox), sequence);
+    }
+    outbox.acknowledge(4);
+    EXPECT_FALSE(outbox.wants_moving_image());
+    outbox.acknowledge(9);
+    EXPECT_TRUE(outbox.wants_moving_image());
+    outbox.put_image(image(10));
+    EXPECT_TRUE(outbox.wants_moving_image());
+}
+
+TEST(Outbox, SettledInterestTakesNoMovingImage) {
+    Outbox outbox(ImageInterest::settled, 2);
+    EXPECT_FALSE(outbox.wants_moving_image());
+    outbox.put_image(image(1));
+    EXPECT_FALSE(outbox.take().has_value());
+    outbox.put_image(image(2, wire::ImageEncoding::half_planes));
+    EXPECT_EQ(taken_sequence(outbox), 2U);
+}
+
+TEST(Outbox, UnsentChangesMergeAndKeepTheLastRevision) {
+    Outbox outbox(ImageInterest::all, 2);
+    outbox.put_change({.revision = 4,
+                       .patch = {{"environment", {{"gain", 2}}}, {"lights", {{"a", nullptr}}}},
+                       .edit_id = 17});
+    outbox.put_change(
+        {.revision = 5, .patch = {{"environment", {{"gain", 3}}}}, .edit_id = {}});
+    const json change = taken_text(outbox);
+    EXPECT_EQ(change["type"], "change");
+    EXPECT_EQ(change["revision"], 5);
+    EXPECT_EQ(change["edit_id"], 17);
+    EXPECT_EQ(change["patch"],
+              (json{{"environment", {{"gain", 3}}}, {"lights", {{"a", nullptr}}}}));
+    EXPECT_FALSE(outbox.take().has_value());
+}
+
+TEST(Outbox, SnapshotComesFirstAndTextBeforeImages) {
+    Outbox outbox(ImageInterest::all, 2);
+    outbox.put_image(image(1));
+    outbox.put_viewers(1);
+    outbox.put_viewers(2);
+    outbox.put_change({.revision = 1, .patch = json::object(), .edit_id = {}});
+    outbox.put_snapshot(R"({"type":"snapshot"})");
+    EXPECT_EQ(taken_text(outbox)["type"], "snapshot");
+    EXPECT_EQ(taken_text(outbox)["type"], "change");
+    EXPECT_EQ(taken_text(outbox)["count"], 2);
+    EXPECT_EQ(taken_sequence(outbox), 1U);
+}
+
+TEST(Outbox, TooManyUnsentErrorsClose) {
+    Outbox outbox(ImageInterest::all, 2);
+    for (std::size_t i = 0; i <= Outbox::kMaxQueuedErrors; ++i) {
+        wire::ErrorMessage error;
+        error.code = wire::ErrorCode::wrong_type;
+        outbox.put_error(error);
+    }
+    for (std::size_t i = 0; i < Outbox::kMaxQueuedErrors; ++i) {
+        EXPECT_EQ(taken_text(outbox)["code"], "wrong_type");
+    }
+    const std::optional<Outbox::Item> last = outbox.take();
+    ASSERT_TRUE(last.has_value());
+    EXPECT_EQ(std::get<Outbox::Close>(*last).code, wire::CloseCode::too_many_errors);
+    EXPECT_FALSE(outbox.take().has_value());
+}
+
+TEST(Outbox, ShuttingDownSendsTheImageFirstAndOtherClosesDoNot) {
+    Outbox patient(ImageInterest::all, 2);
+    patient.put_image(image(7));
+    patient.close(wire::CloseCode::shutting_down);
+    EXPECT_EQ(taken_sequence(patient), 7U);
+    EXPECT_TRUE(std::holds_alternative<Outbox::Close>(patient.take().value()));
+
+    Outbox strict(ImageInterest::all, 2);
+    strict.put_image(image(7));
+    strict.close(wire::CloseCode::too_fast);
+    strict.close(wire::CloseCode::bye);
+    const std::optional<Outbox::Item> item = strict.take();
+    ASSERT_TRUE(item.has_value());
+    EXPECT_EQ(std::get<Outbox::Close>(*item).code, wire::CloseCode::too_fast);
+}
+
+TEST(Outbox, WakesOnceForATakerThatFoundNothing) {
+    int wakes = 0;
+    Outbox outbox(ImageInterest::all, 1);
+    outbox.set_wake([&wakes] { ++wakes; });
+    outbox.put_viewers(1);
+    EXPECT_EQ(wakes, 0);  // nobody has asked yet
+    static_cast<void>(outbox.take());
+    EXPECT_FALSE(outbox.take().has_value());
+    outbox.put_viewers(2);
+    outbox.put_viewers(3);
+    EXPECT_EQ(wakes, 1);
+}
+
+}  // namespace
+}  // namespace relume::net
