@@ -101,6 +101,7 @@ struct Server::Parts {
     bool drained = false;
 
     void open_scenes();
+    void warm_up();
     void wait_for(Clock::time_point deadline, const std::function<bool()>& done) const;
 };
 
@@ -115,8 +116,23 @@ void Server::Parts::open_scenes() {
     if (count == 0) {
         spdlog::error("no_scene folder={:?}", configuration.scenes.string());
     }
+    warm_up();
     spdlog::info("ready scenes={} environments={}", count, environments.list().size());
     readiness.set_ready();
+}
+
+// What every new room begins with is decoded before the first one asks.
+void Server::Parts::warm_up() {
+    const std::shared_ptr<Environment> first =
+        environments.find(configuration.rooms.environment);
+    try {
+        for (const auto& scene : scenes.list()) {
+            static_cast<void>(first->prefiltered(scene->engine->face_resolution()));
+        }
+    } catch (const std::exception& failure) {
+        spdlog::error("environment_broken name={} reason={:?}", configuration.rooms.environment,
+                      failure.what());
+    }
 }
 
 void Server::Parts::wait_for(Clock::time_point deadline,
