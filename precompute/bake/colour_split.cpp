@@ -1,6 +1,9 @@
 #include "precompute/bake/colour_split.h"
 
+#include "protocol/transport/cpu_clones.h"
+
 #include <algorithm>
+#include <span>
 
 namespace relume::bake {
 namespace {
@@ -30,6 +33,41 @@ struct Untinted {
     }
 };
 
+using Colours = std::array<std::span<const float>, 3>;
+using Channels = std::array<std::span<float>, 3>;
+
+RELUME_CPU_CLONES void weighted_mean(const Colours& rgb,
+                                     const Untinted& untinted,
+                                     std::span<float> mean) {
+    const float inverse = untinted.count > 0 ? 1 / untinted.count : 0;
+    const auto [r, g, b] = untinted.factor;
+    for (std::size_t j = 0; j < mean.size(); ++j) {
+        mean[j] = (rgb[0][j] * r + rgb[1][j] * g + rgb[2][j] * b) * inverse;
+    }
+}
+
+// (R+G+B)/3, (R−B)/2, (R−2G+B)/6.
+RELUME_CPU_CLONES void luma_and_chroma(const Colours& rgb,
+                                       const Untinted& untinted,
+                                       const Channels& out) {
+    const auto [fr, fg, fb] = untinted.factor;
+    const std::size_t count = out[0].size();
+    const float* red = rgb[0].data();
+    const float* green = rgb[1].data();
+    const float* blue = rgb[2].data();
+    float* luma = out[0].data();
+    float* first = out[1].data();
+    float* second = out[2].data();
+    for (std::size_t j = 0; j < count; ++j) {
+        const float r = red[j] * fr;
+        const float g = green[j] * fg;
+        const float b = blue[j] * fb;
+        luma[j] = (r + g + b) * (1.0F / 3);
+        first[j] = (r - b) * 0.5F;
+        second[j] = (r - 2 * g + b) * (1.0F / 6);
+    }
+}
+
 }  // namespace
 
 transport::ColourModel grey_model() {
@@ -48,41 +86,30 @@ void split_colours(const transport::ColourModel& model,
     const Imath::V3f& direct = row.direct_white;
     channels.tint = tint_from(grey || direct.x + direct.y + direct.z <= 0 ? row.white : direct);
     const Untinted untinted(channels.tint);
-    const float* red = row.rgb[0].data();
-    const float* green = row.rgb[1].data();
-    const float* blue = row.rgb[2].data();
     for (std::uint32_t k = 0; k < model.channels; ++k) {
         channels.channel[k].resize(count);
     }
-    const auto [fr, fg, fb] = untinted.factor;
-    const float mean = untinted.count > 0 ? 1 / untinted.count : 0;
-    float* luma = channels.channel[0].data();
+    const Colours colours{row.rgb[0], row.rgb[1], row.rgb[2]};
     if (grey || untinted.count < 3) {
-        for (std::size_t j = 0; j < count; ++j) {
-            luma[j] = (red[j] * fr + green[j] * fg + blue[j] * fb) * mean;
-        }
+        weighted_mean(colours, untinted, channels.channel[0]);
     }
     if (grey) {
         return;
     }
-    // luma = (R+G+B)/3, first = (R−B)/2, second = (R−2G+B)/6.
-    float* first = channels.channel[1].data();
-    float* second = channels.channel[2].data();
-    const auto split = [&](std::size_t j, float r, float g, float b) {
-        luma[j] = (r + g + b) * (1.0F / 3);
-        first[j] = (r - b) * 0.5F;
-        second[j] = (r - 2 * g + b) * (1.0F / 6);
-    };
+    const Channels out{channels.channel[0], channels.channel[1], channels.channel[2]};
     if (untinted.count == 3) {
-        for (std::size_t j = 0; j < count; ++j) {
-            split(j, red[j] * fr, green[j] * fg, blue[j] * fb);
-        }
+        luma_and_chroma(colours, untinted, out);
         return;
     }
     for (std::size_t j = 0; j < count; ++j) {
-        const float grey_value = luma[j];
-        split(j, fr > 0 ? red[j] * fr : grey_value, fg > 0 ? green[j] * fg : grey_value,
-              fb > 0 ? blue[j] * fb : grey_value);
+        std::array<float, 3> value{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float factor = untinted.factor[c];
+            value[c] = factor > 0 ? row.rgb[c][j] * factor : channels.channel[0][j];
+        }
+        out[0][j] = (value[0] + value[1] + value[2]) * (1.0F / 3);
+        out[1][j] = (value[0] - value[2]) * 0.5F;
+        out[2][j] = (value[0] - 2 * value[1] + value[2]) * (1.0F / 6);
     }
 }
 

@@ -1,10 +1,10 @@
 #include "precompute/bake/direct_light.h"
 
+#include "protocol/transport/cpu_clones.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 namespace relume::bake {
 namespace {
@@ -34,13 +34,17 @@ JitterShift jitter_shift(std::uint32_t x,
     return shift;
 }
 
-float sum(const std::vector<float>& values) {
-    return static_cast<float>(std::accumulate(values.begin(), values.end(), 0.0));
-}
-
-void add_scaled(const std::vector<float>& source, float factor, std::vector<float>& target) {
+RELUME_CPU_CLONES void add_scaled(std::span<const float> source,
+                                  float factor,
+                                  std::span<float> target) {
     for (std::size_t i = 0; i < source.size(); ++i) {
         target[i] += factor * source[i];
+    }
+}
+
+RELUME_CPU_CLONES void multiply(std::span<const float> factors, std::span<float> values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] *= factors[i];
     }
 }
 
@@ -62,7 +66,6 @@ void DirectLight::compute(const PixelView& view,
     row.is_grey = view.surfaces.empty() ||
                   (view.surfaces.size() == 1 && view.surfaces[0].point.bsdf.is_diffuse());
     row.colour = {0, 0, 0};
-    row.white = {0, 0, 0};
     for (std::size_t c = 0; c < (row.is_grey ? 1U : 3U); ++c) {
         row.plane[c].assign(texels_.size(), 0.0F);
     }
@@ -76,7 +79,6 @@ void DirectLight::compute(const PixelView& view,
         if (row.is_grey) {
             texels_.scatter(reflection.grey, row.plane[0]);
             row.colour = colour;
-            row.white = colour * sum(row.plane[0]);
             return;
         }
         if (reflection.is_diffuse) {
@@ -86,9 +88,7 @@ void DirectLight::compute(const PixelView& view,
             if (!reflection.is_diffuse) {
                 texels_.scatter(reflection.rgb[c], scratch.scattered);
             }
-            const float factor = colour[static_cast<int>(c)];
-            add_scaled(scratch.scattered, factor, row.plane[c]);
-            row.white[static_cast<int>(c)] += factor * sum(scratch.scattered);
+            add_scaled(scratch.scattered, colour[static_cast<int>(c)], row.plane[c]);
         }
     }
 }
@@ -103,16 +103,12 @@ void DirectLight::light_surface(const PixelSurface& surface,
     std::vector<float>& open = scratch.open;
     if (reflection.is_diffuse) {
         visibility_.compute(origin, shift, reflection.grey, open, scratch.visibility);
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            reflection.grey[i] *= open[i];
-        }
+        multiply(open, reflection.grey);
         return;
     }
     visibility_.compute(origin, shift, reflection.projected, open, scratch.visibility);
     for (auto& plane : reflection.rgb) {
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            plane[i] *= open[i];
-        }
+        multiply(open, plane);
     }
     split_visibility(surface, origin, shift, scratch);
 }
@@ -124,8 +120,8 @@ void DirectLight::split_visibility(const PixelSurface& surface,
                                    Scratch& scratch) const {
     constexpr float kPart = 1.0F / LightTexels::kTileSide;
     Reflection& reflection = scratch.reflection;
+    RayPacket packet(origin);
     for (const SplitTexel& split : reflection.split) {
-        DirectionPacket directions;
         std::uint32_t wanted = 0;
         for (std::uint32_t part = 0; part < kPacketSize; ++part) {
             const auto column = static_cast<float>(part % LightTexels::kTileSide);
@@ -133,12 +129,12 @@ void DirectLight::split_visibility(const PixelSurface& surface,
             const Imath::V3f d =
                 texels_.cube_point(split.place, (column + shift.column[part]) * kPart,
                                    (row + shift.row[part]) * kPart);
-            directions.x[part] = d.x;
-            directions.y[part] = d.y;
-            directions.z[part] = d.z;
+            packet.x()[part] = d.x;
+            packet.y()[part] = d.y;
+            packet.z()[part] = d.z;
             wanted |= surface.point.is_above_surface(d) ? 1U << part : 0U;
         }
-        const std::uint32_t free = caster_.unoccluded(origin, directions, wanted);
+        const std::uint32_t free = caster_.unoccluded(packet, wanted);
         scratch.visibility.rays += static_cast<std::uint64_t>(std::popcount(wanted));
         for (std::size_t c = 0; c < 3; ++c) {
             float total = 0;

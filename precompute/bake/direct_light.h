@@ -19,7 +19,6 @@ struct TexelRow {
     bool is_grey = true;
     Imath::V3f colour{0, 0, 0};               // of plane[0], when grey
     std::array<std::vector<float>, 3> plane;  // one or three, of 6·n² values
-    Imath::V3f white{0, 0, 0};                // sum over all texels
 };
 
 class DirectLight {

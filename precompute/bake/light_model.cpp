@@ -12,9 +12,12 @@ namespace relume::bake {
 std::vector<float> natural_light(std::uint32_t n, std::uint64_t seed) {
     const std::size_t count = basis::texel_count(n);
     const auto side = static_cast<float>(n);
-    // Band b has 18·4^b wavelets; with amplitude a·2^(−b/2) it has energy 18·2^b·a², while the
-    // constant has 6·n².
-    const float amplitude = side / std::sqrt(3.0F * (side - 1));
+    // Band b has 18·4^b wavelets of amplitude a·2^(−falloff·b); the constant has energy 6·n².
+    float energy = 0;
+    for (std::uint32_t band = 0; band < basis::band_count(n); ++band) {
+        energy += 18 * std::exp2((2 - 2 * kNaturalFalloff) * static_cast<float>(band));
+    }
+    const float amplitude = side * std::sqrt(6 / energy);
     std::vector<float> light(count);
     for (std::size_t j = 0; j < count; ++j) {
         if (j % (std::size_t{n} * n) == 0) {

@@ -8,9 +8,10 @@
 
 namespace relume::bake {
 
-// Coefficients of natural light fall off as 2^(−kNaturalFalloff·band): between the exponent one
-// of photographs [Dror04] and the zero of a bare sun, and the mean found in eight CC0 maps.
-inline constexpr float kNaturalFalloff = 0.5F;
+// Coefficients of natural light fall off as 2^(−kNaturalFalloff·band). Photographs show an
+// exponent of one [Dror04]; a bare sun shows zero; this is what the harder half of eight CC0
+// maps shows, those with lamps or a sun in them.
+inline constexpr float kNaturalFalloff = 0.25F;
 
 // Colourless lighting coefficients, basis/haar.h, of mean radiance 1.
 //

@@ -1,6 +1,7 @@
 #include "precompute/bake/light_texels.h"
 
 #include "precompute/bake/sobol.h"
+#include "protocol/transport/cpu_clones.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
@@ -11,6 +12,20 @@ namespace {
 
 float sine_between(const Imath::V3f& unit, const Imath::V3f& any) {
     return unit.cross(any).length() / any.length();
+}
+
+RELUME_CPU_CLONES void along_axis(float origin,
+                                  float columns,
+                                  float rows,
+                                  const float* column_offset,
+                                  const float* row_offset,
+                                  float* points) {
+    for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
+        const float column =
+            static_cast<float>(lane % LightTexels::kTileSide) + column_offset[lane];
+        const float row = static_cast<float>(lane / LightTexels::kTileSide) + row_offset[lane];
+        points[lane] = origin + columns * column + rows * row;
+    }
 }
 
 }  // namespace
@@ -95,14 +110,12 @@ SphericalPolygon LightTexels::polygon(std::size_t place) const {
 void LightTexels::cube_points(std::size_t packet,
                               std::span<const float, kPacketSize> column_offset,
                               std::span<const float, kPacketSize> row_offset,
-                              DirectionPacket& points) const {
+                              RayPacket& points) const {
     const Tile& tile = tiles_[packet];
-    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-        const float column = static_cast<float>(lane % kTileSide) + column_offset[lane];
-        const float row = static_cast<float>(lane / kTileSide) + row_offset[lane];
-        points.x[lane] = tile.origin.x + tile.columns.x * column + tile.rows.x * row;
-        points.y[lane] = tile.origin.y + tile.columns.y * column + tile.rows.y * row;
-        points.z[lane] = tile.origin.z + tile.columns.z * column + tile.rows.z * row;
+    const std::array<float*, 3> planes{points.x(), points.y(), points.z()};
+    for (int axis = 0; axis < 3; ++axis) {
+        along_axis(tile.origin[axis], tile.columns[axis], tile.rows[axis], column_offset.data(),
+                   row_offset.data(), planes[static_cast<std::size_t>(axis)]);
     }
 }
 

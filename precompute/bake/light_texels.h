@@ -60,11 +60,19 @@ class LightTexels {
                tile.columns * (static_cast<float>(lane % kTileSide) + column_offset) +
                tile.rows * (static_cast<float>(lane / kTileSide) + row_offset);
     }
-    // The same for all places of a packet at once.
+    // The same for all places of a packet at once, as directions of rays.
     void cube_points(std::size_t packet,
                      std::span<const float, kPacketSize> column_offset,
                      std::span<const float, kPacketSize> row_offset,
-                     DirectionPacket& points) const;
+                     RayPacket& points) const;
+
+    // From one column, and one row, to the next on the cube.
+    [[nodiscard]] const Imath::V3f& column_step(std::size_t place) const {
+        return tiles_[place / kPacketSize].columns;
+    }
+    [[nodiscard]] const Imath::V3f& row_step(std::size_t place) const {
+        return tiles_[place / kPacketSize].rows;
+    }
 
     [[nodiscard]] std::size_t texel_index(std::size_t place) const;
     [[nodiscard]] std::size_t place_from_texel_index(std::size_t index) const {

@@ -2,6 +2,7 @@
 
 #include "precompute/bake/error.h"
 #include "precompute/scene/surface_point.h"
+#include "protocol/transport/cpu_clones.h"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,22 @@ RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
     rtcInitIntersectContext(&context);
     context.flags = flags;
     return context;
+}
+
+RELUME_CPU_CLONES void select_lanes(std::uint32_t wanted, int* valid, float* tfar) {
+    for (std::uint32_t i = 0; i < kPacketSize; ++i) {
+        valid[i] = -static_cast<int>((wanted >> i) & 1U);
+        tfar[i] = kInfinity;
+    }
+}
+
+// Embree sets the far end of a ray that meets something to minus infinity.
+RELUME_CPU_CLONES std::uint32_t positive_lanes(const float* tfar) {
+    std::uint32_t lanes = 0;
+    for (std::uint32_t i = 0; i < kPacketSize; ++i) {
+        lanes += tfar[i] > 0 ? 1U << i : 0U;
+    }
+    return lanes;
 }
 
 }  // namespace
@@ -132,33 +149,25 @@ bool RayCaster::is_occluded(const Imath::V3f& origin, const Imath::V3f& directio
     return ray.tfar < 0;
 }
 
-std::uint32_t RayCaster::unoccluded(const Imath::V3f& origin,
-                                    const DirectionPacket& directions,
-                                    std::uint32_t wanted) const {
-    alignas(64) RTCRay16 rays;
-    alignas(64) std::array<int, kPacketSize> valid;
+RayPacket::RayPacket(const Imath::V3f& origin)
+    : context_(make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT)) {
     for (std::size_t i = 0; i < kPacketSize; ++i) {
-        valid[i] = (wanted >> i) & 1U ? -1 : 0;
-        rays.org_x[i] = origin.x;
-        rays.org_y[i] = origin.y;
-        rays.org_z[i] = origin.z;
-        rays.dir_x[i] = directions.x[i];
-        rays.dir_y[i] = directions.y[i];
-        rays.dir_z[i] = directions.z[i];
-        rays.tnear[i] = 0;
-        rays.tfar[i] = kInfinity;
-        rays.time[i] = 0;
-        rays.mask[i] = ~0U;
-        rays.id[i] = 0;
-        rays.flags[i] = 0;
+        rays_.org_x[i] = origin.x;
+        rays_.org_y[i] = origin.y;
+        rays_.org_z[i] = origin.z;
+        rays_.dir_x[i] = rays_.dir_y[i] = rays_.dir_z[i] = 0;
+        rays_.tnear[i] = 0;
+        rays_.time[i] = 0;
+        rays_.mask[i] = ~0U;
+        rays_.id[i] = 0;
+        rays_.flags[i] = 0;
     }
-    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-    rtcOccluded16(valid.data(), accelerator_.get(), &context, &rays);
-    std::uint32_t open = 0;
-    for (std::size_t i = 0; i < kPacketSize; ++i) {
-        open |= rays.tfar[i] > 0 ? 1U << i : 0U;
-    }
-    return open & wanted;
+}
+
+std::uint32_t RayCaster::unoccluded(RayPacket& packet, std::uint32_t wanted) const {
+    select_lanes(wanted, packet.valid_.data(), packet.rays_.tfar);
+    rtcOccluded16(packet.valid_.data(), accelerator_.get(), &packet.context_, &packet.rays_);
+    return positive_lanes(packet.rays_.tfar) & wanted;
 }
 
 Imath::V3f RayCaster::offset_origin(const Imath::V3f& position,

@@ -24,11 +24,22 @@ struct Hit {
 
 inline constexpr std::size_t kPacketSize = 16;
 
-// Directions of any length.
-struct alignas(64) DirectionPacket {
-    std::array<float, kPacketSize> x{};
-    std::array<float, kPacketSize> y{};
-    std::array<float, kPacketSize> z{};
+// Sixteen rays from one point, set up once and cast again and again with other directions.
+class RayPacket {
+  public:
+    explicit RayPacket(const Imath::V3f& origin);
+
+    // Directions of any length; write those that are wanted before each cast.
+    [[nodiscard]] float* x() { return rays_.dir_x; }
+    [[nodiscard]] float* y() { return rays_.dir_y; }
+    [[nodiscard]] float* z() { return rays_.dir_z; }
+
+  private:
+    friend class RayCaster;
+
+    RTCRay16 rays_;
+    alignas(64) std::array<int, kPacketSize> valid_{};
+    RTCIntersectContext context_;
 };
 
 // Holes of alpha-masked materials let rays through. Immutable and thread-safe; keeps a
@@ -46,9 +57,7 @@ class RayCaster {
     [[nodiscard]] bool is_occluded(const Imath::V3f& origin, const Imath::V3f& direction) const;
     // Bit i is set when bit i of `wanted` is set and nothing lies in direction i. Fastest when
     // the directions are close to each other.
-    [[nodiscard]] std::uint32_t unoccluded(const Imath::V3f& origin,
-                                           const DirectionPacket& directions,
-                                           std::uint32_t wanted) const;
+    [[nodiscard]] std::uint32_t unoccluded(RayPacket& packet, std::uint32_t wanted) const;
 
     // A point just off the surface, so that a ray from it does not meet the surface it left.
     // `normal` points to the ray's side.

@@ -1,6 +1,7 @@
 #include "precompute/bake/reflection.h"
 
 #include "protocol/basis/cubemap.h"
+#include "protocol/transport/cpu_clones.h"
 
 #include <Imath/ImathVec.h>
 
@@ -65,6 +66,17 @@ void for_each_packet(const LightTexels& texels,
     }
 }
 
+RELUME_CPU_CLONES void cosines(const Imath::V3f& normal,
+                               const float* x,
+                               const float* y,
+                               const float* z,
+                               const float* irradiance,
+                               float* out) {
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        out[i] = (normal.x * x[i] + normal.y * y[i] + normal.z * z[i]) * irradiance[i];
+    }
+}
+
 void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflection& out) {
     const float* x = texels.direction_x().data();
     const float* y = texels.direction_y().data();
@@ -75,9 +87,7 @@ void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflecti
     for_each_packet(
         texels, normals,
         [&](std::size_t first) {
-            for (std::size_t i = first; i < first + kPacketSize; ++i) {
-                grey[i] = (s.x * x[i] + s.y * y[i] + s.z * z[i]) * irradiance[i];
-            }
+            cosines(s, x + first, y + first, z + first, irradiance + first, grey + first);
         },
         [&](std::size_t place, bool is_below) {
             grey[place] = is_below ? 0.0F

@@ -1,8 +1,33 @@
 #include "precompute/bake/row_baker.h"
 
 #include "protocol/basis/haar.h"
+#include "protocol/transport/cpu_clones.h"
+
+#include <span>
 
 namespace relume::bake {
+namespace {
+
+RELUME_CPU_CLONES void scale(std::span<const float> source,
+                             float factor,
+                             std::span<float> target) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        target[i] = factor * source[i];
+    }
+}
+
+// Response to a constant environment: a face's scaling coefficient is its sum over n.
+Imath::V3f white_response(std::uint32_t n, const CoefficientRow& row) {
+    Imath::V3f white{0, 0, 0};
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t face = 0; face < basis::kFaceCount; ++face) {
+            white[c] += row.rgb[static_cast<std::size_t>(c)][face * n * n];
+        }
+    }
+    return white * static_cast<float>(n);
+}
+
+}  // namespace
 
 RowBaker::RowBaker(const RayCaster& caster,
                    const LightTexels& texels,
@@ -20,15 +45,12 @@ void RowBaker::bake(const TracedPixel& pixel,
                     Scratch& scratch) const {
     TexelRow& texels = scratch.texels;
     direct_.compute(pixel.view, x, y, seed_, texels, scratch.direct);
-    row.direct_white = texels.white;
     if (texels.is_grey) {
         basis::haar_forward_cubemap(face_resolution_, texels.plane[0]);
         for (std::size_t c = 0; c < 3; ++c) {
             const float factor = texels.colour[static_cast<int>(c)];
             row.rgb[c].resize(texels.plane[0].size());
-            for (std::size_t j = 0; j < row.rgb[c].size(); ++j) {
-                row.rgb[c][j] = factor * texels.plane[0][j];
-            }
+            scale(texels.plane[0], factor, row.rgb[c]);
         }
     } else {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -36,15 +58,9 @@ void RowBaker::bake(const TracedPixel& pixel,
             basis::haar_forward_cubemap(face_resolution_, row.rgb[c]);
         }
     }
+    row.direct_white = white_response(face_resolution_, row);
     add_indirect(pixel, x, y, pool, row, scratch);
-    for (std::size_t c = 0; c < 3; ++c) {
-        // A face's scaling coefficient is its sum over n.
-        float sum = 0;
-        for (std::size_t face = 0; face < basis::kFaceCount; ++face) {
-            sum += row.rgb[c][face * face_resolution_ * face_resolution_];
-        }
-        row.white[static_cast<int>(c)] = sum * static_cast<float>(face_resolution_);
-    }
+    row.white = white_response(face_resolution_, row);
 }
 
 void RowBaker::add_indirect(const TracedPixel& pixel,

@@ -32,8 +32,10 @@ class Visibility {
 
     // Reused from point to point; one per thread.
     struct Scratch {
-        std::vector<std::uint8_t> state;  // by texel, with a border round each face
+        std::vector<std::uint8_t> state;    // by texel, with a border round each face
+        std::vector<std::uint8_t> at_edge;  // flags of one row of texels
         std::vector<std::uint32_t> edges;
+        std::array<std::vector<float>, 3> directions;
         std::uint64_t rays = 0;  // cast so far
     };
 
@@ -45,23 +47,20 @@ class Visibility {
                  Scratch& scratch) const;
 
   private:
-    void cast_first(const Imath::V3f& origin,
+    void cast_first(RayPacket& packet,
                     const JitterShift& shift,
                     std::span<const float> wanted,
                     std::span<float> open,
                     Scratch& scratch) const;
     void find_edges(Scratch& scratch) const;
-    void refine_edges(const Imath::V3f& origin,
-                      const JitterShift& shift,
-                      std::span<float> open,
-                      Scratch& scratch) const;
-    [[nodiscard]] Imath::V3f direction(std::size_t place,
-                                       const JitterShift& shift,
-                                       std::uint32_t sample) const;
+    void refine_edges(RayPacket& packet, std::span<float> open, Scratch& scratch) const;
+    void aim_at_edges(const JitterShift& shift, Scratch& scratch) const;
 
     const RayCaster& caster_;
     const LightTexels& texels_;
-    std::vector<Imath::V2f> samples_;  // offsets from the first ray, modulo the texel
+    // Of the further rays: offsets from the first, modulo the texel.
+    std::vector<float> column_samples_;
+    std::vector<float> row_samples_;
 };
 
 }  // namespace relume::bake

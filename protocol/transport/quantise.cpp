@@ -1,5 +1,6 @@
 #include "protocol/transport/quantise.h"
 
+#include "protocol/transport/cpu_clones.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
@@ -9,6 +10,16 @@ namespace relume::transport {
 namespace {
 
 constexpr float kDeadZone = 0.5F;
+
+constexpr std::size_t kChunk = 32;
+
+RELUME_CPU_CLONES bool is_in_dead_zone(const float* values, const float* inverse_steps) {
+    std::uint32_t outside = 0;
+    for (std::size_t i = 0; i < kChunk; ++i) {
+        outside |= std::abs(values[i] * inverse_steps[i]) >= kDeadZone ? 1U : 0U;
+    }
+    return outside == 0;
+}
 
 std::int32_t rounded(float scaled, std::uint64_t receiver, std::uint64_t column) {
     constexpr float kLargest = 1 << 30;
@@ -39,14 +50,9 @@ void quantise_row(std::span<const float> values,
                   std::uint32_t channels,
                   std::vector<QuantisedValue>& quantised) {
     // Most values are in the dead zone, and a chunk of them is passed in one comparison.
-    constexpr std::size_t kChunk = 16;
     for (std::size_t begin = 0; begin < values.size(); begin += kChunk) {
         const std::size_t end = std::min(begin + kChunk, values.size());
-        float largest = 0;
-        for (std::size_t j = begin; j < end; ++j) {
-            largest = std::max(largest, std::abs(values[j] * inverse_steps[j]));
-        }
-        if (largest < kDeadZone) {
+        if (end - begin == kChunk && is_in_dead_zone(&values[begin], &inverse_steps[begin])) {
             continue;
         }
         for (std::size_t j = begin; j < end; ++j) {

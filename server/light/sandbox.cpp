@@ -80,7 +80,9 @@ void load_filter() {
          {SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise), SCMP_SYS(brk), SCMP_SYS(futex),
           SCMP_SYS(sched_yield), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
           SCMP_SYS(getrandom), SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(rt_sigprocmask),
-          SCMP_SYS(rt_sigreturn), SCMP_SYS(exit), SCMP_SYS(exit_group)}) {
+          SCMP_SYS(rt_sigreturn), SCMP_SYS(exit), SCMP_SYS(exit_group),
+          // Harmless, and AddressSanitizer asks it before every throw and exit.
+          SCMP_SYS(sigaltstack)}) {
         filter.allow(syscall);
     }
     // abort() raises its signal this way; being killed for that would hide the reason.

@@ -39,15 +39,15 @@ TEST(LightTexels, PacketsHoldTheSamePointsAsPlaces) {
         columns[lane] = 0.05F * static_cast<float>(lane);
         rows[lane] = 1 - columns[lane];
     }
-    DirectionPacket points;
+    RayPacket points({0, 0, 0});
     for (std::size_t packet = 0; packet < texels.packet_count(); ++packet) {
         texels.cube_points(packet, columns, rows, points);
         for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
             const Imath::V3f one =
                 texels.cube_point(packet * kPacketSize + lane, columns[lane], rows[lane]);
-            EXPECT_NEAR(points.x[lane], one.x, 1e-6F);
-            EXPECT_NEAR(points.y[lane], one.y, 1e-6F);
-            EXPECT_NEAR(points.z[lane], one.z, 1e-6F);
+            EXPECT_NEAR(points.x()[lane], one.x, 1e-6F);
+            EXPECT_NEAR(points.y()[lane], one.y, 1e-6F);
+            EXPECT_NEAR(points.z()[lane], one.z, 1e-6F);
         }
     }
 }
