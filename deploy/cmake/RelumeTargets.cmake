@@ -1,10 +1,11 @@
 # How every target of the project is built: one place for warnings, sanitizers and linking.
 include_guard(GLOBAL)
 
+# Clones of one machine share what ccache holds: paths count from the root of the clone.
 find_program(RELUME_CCACHE ccache)
 if(RELUME_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${RELUME_CCACHE})
-    set(CMAKE_C_COMPILER_LAUNCHER ${RELUME_CCACHE})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+        CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${RELUME_CCACHE})
 endif()
 
 add_library(relume_build_flags INTERFACE)
