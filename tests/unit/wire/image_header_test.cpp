@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace relume::wire {
@@ -30,8 +31,8 @@ ImageHeader header_from_fields(const nlohmann::json& fields) {
 }
 
 std::vector<std::byte> frame_of(std::span<const std::byte> header, std::size_t payload_bytes) {
-    std::vector<std::byte> frame(header.begin(), header.end());
-    frame.resize(frame.size() + payload_bytes);
+    std::vector<std::byte> frame(header.size() + payload_bytes);
+    std::copy(header.begin(), header.end(), frame.begin());
     return frame;
 }
 
