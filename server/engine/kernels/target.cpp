@@ -56,7 +56,7 @@ std::string target_name() {
         return "scalar";
     }
     apply_forced_target();
-    const int64_t targets = hwy::SupportedTargets();
+    const int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
     return lower(hwy::TargetName(targets & -targets));
 }
 

@@ -1,0 +1,99 @@
+#include "tests/bench/cell_stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+namespace relume::bench {
+namespace {
+
+using transport::kBlockSize;
+
+// "bitmap8/64" is a cell of encoding bitmap8.
+std::string encoding_of(const CellKind& kind) {
+    return kind.name.substr(0, kind.name.find('/'));
+}
+
+transport::QuantisedCell random_cell(const CellKind& kind, std::mt19937_64& random) {
+    std::array<std::uint8_t, kBlockSize> slots{};
+    std::iota(slots.begin(), slots.end(), std::uint8_t{0});
+    std::shuffle(slots.begin(), slots.end(), random);
+    std::uniform_int_distribution<std::int32_t> magnitude(1, kind.range);
+    transport::QuantisedCell cell{};
+    for (std::size_t i = 0; i < kind.nonzeros; ++i) {
+        // The first value has the full range, so that the encoding is certain.
+        const std::int32_t value = i == 0 ? kind.range : magnitude(random);
+        cell[slots[i]] = (random() & 1U) != 0 ? value : -value;
+    }
+    return cell;
+}
+
+}  // namespace
+
+const std::vector<CellKind>& cell_kinds() {
+    constexpr std::int32_t kRange16 = 2000;
+    constexpr std::int32_t kRange32 = 100000;
+    static const std::vector<CellKind> kinds{
+        {.name = "empty"},
+        {.name = "sparse8/1", .nonzeros = 1},
+        {.name = "sparse8/4", .nonzeros = 4},
+        {.name = "sparse8/16", .nonzeros = 16},
+        {.name = "sparse8/31", .nonzeros = 31},
+        {.name = "bitmap8/32", .nonzeros = 32},
+        {.name = "bitmap8/64", .nonzeros = 64},
+        {.name = "bitmap8/128", .nonzeros = 128},
+        {.name = "bitmap8/192", .nonzeros = 192},
+        {.name = "dense8/256", .nonzeros = 256},
+        {.name = "bitmap16/32", .nonzeros = 32, .range = kRange16},
+        {.name = "bitmap16/128", .nonzeros = 128, .range = kRange16},
+        {.name = "dense16/256", .nonzeros = 256, .range = kRange16},
+        {.name = "dense32f/256", .nonzeros = 256, .range = kRange32},
+    };
+    return kinds;
+}
+
+CellStream::CellStream(const CellKind& kind, std::uint32_t block_count, std::size_t bytes)
+    : block_count_(block_count), nonzeros_per_cell_(kind.nonzeros) {
+    // A few different columns are enough: what they are filled with is drawn only once, their
+    // copies lie in memory of their own.
+    constexpr std::size_t kDifferent = 16;
+    std::mt19937_64 random(1);
+    std::vector<std::vector<std::uint8_t>> columns(kDifferent);
+    for (std::vector<std::uint8_t>& column : columns) {
+        column.resize(transport::tag_bytes(block_count), 0);
+        for (std::uint32_t block = 0; block < block_count; ++block) {
+            const auto tag = transport::append_cell(random_cell(kind, random), column);
+            if (encoding_of(kind) != transport::kCellTagNames[static_cast<std::size_t>(tag)]) {
+                throw std::logic_error(
+                    fmt::format("a cell of kind {} was stored as {}", kind.name,
+                                transport::kCellTagNames[static_cast<std::size_t>(tag)]));
+            }
+            const unsigned shift = (block & 1U) * 4U;
+            column[block / 2] = static_cast<std::uint8_t>(
+                column[block / 2] | (static_cast<unsigned>(tag) << shift));
+        }
+    }
+    const std::size_t count =
+        std::max<std::size_t>(engine::kSegmentGroup, bytes / columns.front().size());
+    std::vector<std::size_t> begins;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<std::uint8_t>& column = columns[i % kDifferent];
+        begins.push_back(data_.size());
+        data_.insert(data_.end(), column.begin(), column.end());
+    }
+    bytes_ = data_.size();
+    // As behind a shard's data: vector loads may run past the last cell.
+    data_.resize(bytes_ + transport::kShardTailBytes, 0);
+    std::uniform_real_distribution<float> weight(-1, 1);
+    for (const std::size_t begin : begins) {
+        const std::uint8_t* tags = data_.data() + begin;
+        segments_.push_back(
+            {.segment = {.tags = tags, .cells = tags + transport::tag_bytes(block_count)},
+             .weights = {weight(random), weight(random), weight(random)}});
+    }
+}
+
+}  // namespace relume::bench

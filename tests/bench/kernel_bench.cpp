@@ -1,0 +1,110 @@
+// The accumulation kernel by itself: every encoding, on every instruction set this processor
+// has, from the second-level cache and from memory.
+#include "server/engine/kernels/target.h"
+#include "tests/bench/cell_stream.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <hwy/targets.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <optional>
+
+namespace relume::bench {
+namespace {
+
+// One shard of 64 blocks: 200 KB of sums.
+constexpr std::uint32_t kBlocks = transport::kMaxBlocksPerShard;
+
+struct Working {
+    const char* name;
+    std::size_t bytes;
+};
+constexpr Working kWorkingSets[] = {{"l2", std::size_t{512} << 10U},
+                                    {"memory", std::size_t{192} << 20U}};
+
+// Without a target: the specification, which RELUME_FORCE_TARGET=scalar runs. (Highway calls
+// the processor's plain instructions a target named scalar, too.)
+void run_kernel(benchmark::State& state,
+                const CellKind& kind,
+                std::size_t bytes,
+                std::optional<std::int64_t> target) {
+    const CellStream stream(kind, kBlocks, bytes);
+    std::vector<float> sums(std::size_t{kBlocks} * transport::kColours * transport::kBlockSize);
+    hwy::SetSupportedTargetsForTest(target.value_or(0));
+    engine::AccumulateSegments* const kernel =
+        target ? engine::accumulate_segments : engine::accumulate_segments_scalar;
+    for (auto _ : state) {
+        kernel(stream.segments(), kBlocks, sums.data());
+        benchmark::ClobberMemory();
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    using Counter = benchmark::Counter;
+    const auto rate = [](double amount) {
+        return Counter(amount, Counter::kIsIterationInvariantRate);
+    };
+    const auto seconds_per = [](std::uint64_t amount) {
+        return Counter(static_cast<double>(amount),
+                       Counter::kIsIterationInvariantRate | Counter::kInvert);
+    };
+    state.counters["bytes/s"] = rate(static_cast<double>(stream.bytes()));
+    state.counters["s/cell"] = seconds_per(stream.cells());
+    if (stream.nonzeros() != 0) {
+        state.counters["s/value"] = seconds_per(stream.nonzeros());
+    }
+}
+
+void register_kernel(const std::string& target_name, std::optional<std::int64_t> target) {
+    for (const Working& working : kWorkingSets) {
+        for (const CellKind& kind : cell_kinds()) {
+            // Tags alone cannot fill the memory: 32 bytes a column.
+            if (kind.nonzeros == 0 && working.bytes != kWorkingSets[0].bytes) {
+                continue;
+            }
+            const std::string name =
+                fmt::format("{}/{}/{}", target_name, working.name, kind.name);
+            const std::size_t bytes = working.bytes;
+            benchmark::RegisterBenchmark(name.c_str(), [&kind, bytes,
+                                                        target](benchmark::State& state) {
+                run_kernel(state, kind, bytes, target);
+            })->Unit(benchmark::kMicrosecond);
+        }
+    }
+}
+
+std::string lower(std::string text) {
+    for (char& letter : text) {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return text;
+}
+
+// All targets, or what RELUME_FORCE_TARGET names.
+void register_all() {
+    const bool forced = std::getenv("RELUME_FORCE_TARGET") != nullptr;
+    const std::string chosen = engine::target_name();
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        const std::string name = lower(hwy::TargetName(target));
+        if (!forced || name == chosen) {
+            register_kernel(name, target);
+        }
+    }
+    if (!forced || engine::scalar_is_forced()) {
+        register_kernel("specification", std::nullopt);
+    }
+    benchmark::AddCustomContext("kernel target by default", chosen);
+}
+
+}  // namespace
+}  // namespace relume::bench
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    relume::bench::register_all();
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
