@@ -27,4 +27,5 @@ pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(seccomp REQUIRED IMPORTED_TARGET libseccomp)
 find_package(GTest REQUIRED)
 find_package(benchmark REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)  # a peer in tests/bench
 find_package(rapidcheck REQUIRED)

@@ -24,6 +24,8 @@ class Program {
     Program(Program&&) = delete;
     Program& operator=(Program&&) = delete;
 
+    // Of the process, while it runs.
+    [[nodiscard]] pid_t id() const { return process_; }
     void send(int signal) const;
     // The exit code, or 128 + the signal that ended it.
     int wait();

@@ -1,0 +1,89 @@
+// Bytes at equal error: our cells against the paper's value and index.
+#include "tests/bench/figure_groups.h"
+#include "tests/bench/quantiser_comparison.h"
+#include "tests/bench/workbench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace relume::bench {
+namespace {
+
+struct DemoScene {
+    const char* name;
+    std::uint32_t bounces;
+};
+constexpr DemoScene kScenes[] = {{"mesh100k", 0}, {"table", 1}, {"box", 1}, {"thin", 1}};
+
+// The coarsest of our steps whose error under natural light is no larger than the peer's, in L2
+// and in H1, found by going down from far too coarse by eighths of an octave.
+StoredTiles at_equal_error(const FloatTiles& tiles,
+                           const TestLights& lights,
+                           const StoredTiles& peer,
+                           nlohmann::json& measured) {
+    constexpr int kCoarsest = 24;
+    constexpr int kFinest = -64;
+    for (int eighth = kCoarsest; eighth >= kFinest; --eighth) {
+        const float scale = std::exp2(static_cast<float>(eighth) / 8);
+        const StoredTiles ours = store_as_relume(tiles, lights, scale);
+        if (ours.errors[0].l2 <= peer.errors[0].l2 && ours.errors[0].h1 <= peer.errors[0].h1) {
+            measured = to_json(ours);
+            measured["step_scale"] = scale;
+            return ours;
+        }
+    }
+    throw std::runtime_error("no step comes as close as the peer");
+}
+
+// Bytes of the peer over ours; the smaller of both readings of the paper.
+double gain_for(const DemoScene& scene, bool quick, nlohmann::json& measured) {
+    bake::BakeParameters parameters;
+    parameters.bounces = scene.bounces;
+    if (quick) {
+        parameters.width = 128;
+        parameters.height = 96;
+        parameters.face_resolution = 16;
+        parameters.samples = 8;
+    }
+    const TestLights lights(parameters.face_resolution);
+    const std::uint32_t tiles_each_way = quick ? 2 : 4;
+    const FloatTiles tiles =
+        sample_tiles(scene.name, parameters, lights, tiles_each_way, tiles_each_way);
+    measured["channels"] = tiles.quantisation.colour.channels;
+    measured["as_baked"] = to_json(store_as_relume(tiles, lights, 1));
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [range, name] : {std::pair(Ng03Range::column, "range_of_column"),
+                                      std::pair(Ng03Range::block, "range_of_block")}) {
+        const StoredTiles peer = store_as_ng03(tiles, lights, range);
+        nlohmann::json& comparison = measured[name];
+        comparison["ng03"] = to_json(peer);
+        const StoredTiles ours = at_equal_error(tiles, lights, peer, comparison["ours"]);
+        const double gain = static_cast<double>(peer.bytes) / static_cast<double>(ours.bytes);
+        comparison["gain"] = gain;
+        least = std::min(least, gain);
+    }
+    return least;
+}
+
+void measure(Workbench& workbench, Results& results) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const DemoScene& scene : kScenes) {
+        nlohmann::json& measured = results.measured("bytes")[scene.name];
+        least = std::min(least, gain_for(scene, workbench.quick(), measured));
+    }
+    results.set("bytes_gain_over_ng03", least);
+}
+
+}  // namespace
+
+FigureGroup bytes_figures() {
+    return {.figures = {{.key = "bytes_gain_over_ng03",
+                         .meaning = "[Ng03]'s bytes / ours at equal error, least of the scenes",
+                         .aim = Aim::at_least,
+                         .target = 2.5}},
+            .measure = measure};
+}
+
+}  // namespace relume::bench

@@ -1,0 +1,135 @@
+// What rounding leaves behind when edits never rest.
+#include "server/engine/session.h"
+#include "tests/bench/figure_groups.h"
+#include "tests/bench/light_drag.h"
+#include "tests/bench/workbench.h"
+#include "tests/support/tiny_transport.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume::bench {
+namespace {
+
+using transport::kBlockSize;
+using transport::kColours;
+
+constexpr float kLampRadiance = 1e5F;
+// Of every hundred edits the lamp is on for ten.
+constexpr std::size_t kPeriod = 100;
+constexpr std::size_t kLampOn = 10;
+constexpr std::size_t kTurns = 240;  // of the environment, 1.5 degrees each
+constexpr std::size_t kChecks = 10;
+constexpr std::uint32_t kTerms = 30;
+
+std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
+    light::LightRig rig;
+    rig.lights = {{.direction = Imath::V3f(0.4F, 1, 0.3F).normalized(),
+                   .angular_radius_radians = 0.05F,
+                   .radiance = Imath::V3f(kLampRadiance)}};
+    light::LightCubemap cubemap;
+    light::evaluate(rig, face_resolution, cubemap);
+    std::vector<float> coefficients;
+    light::lighting_coefficients(cubemap, coefficients);
+    return coefficients;
+}
+
+// Error of the sums against what they should be, relative, in the tenth of the covered pixels
+// in which the latter are smallest. Tint is applied to both.
+double dark_tenth_error(const engine::Scene& scene,
+                        std::span<const float> sums,
+                        std::span<const double> exact) {
+    struct Pixel {
+        double value = 0;
+        double error = 0;
+    };
+    const auto tint = scene.transport().tint();
+    const auto coverage = scene.transport().coverage();
+    std::vector<Pixel> pixels;
+    for (std::size_t receiver = 0; receiver < coverage.size(); ++receiver) {
+        if (coverage[receiver] <= 0) {
+            continue;
+        }
+        Pixel pixel;
+        const std::size_t first =
+            receiver / kBlockSize * kColours * kBlockSize + receiver % kBlockSize;
+        for (std::size_t c = 0; c < kColours; ++c) {
+            const std::size_t i = first + c * kBlockSize;
+            const double value = exact[i] * double{tint[i]};
+            const double error = double{sums[i]} * double{tint[i]} - value;
+            pixel.value += value * value;
+            pixel.error += error * error;
+        }
+        pixels.push_back(pixel);
+    }
+    const auto tenth = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 10);
+    std::nth_element(pixels.begin(), tenth, pixels.end(),
+                     [](const Pixel& a, const Pixel& b) { return a.value < b.value; });
+    double value = 0;
+    double error = 0;
+    for (auto pixel = pixels.begin(); pixel != tenth; ++pixel) {
+        value += pixel->value;
+        error += pixel->error;
+    }
+    return std::sqrt(error / value);
+}
+
+// The worst of all checks. Each stands at the end of a period, long after the lamp went out,
+// and compares the image shown with the dense product of the lighting that it shows.
+double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
+                   wire::Strategy strategy,
+                   std::size_t edits) {
+    const LightDrag drag(scene->face_resolution());
+    const std::vector<float> lamp = lamp_lighting(scene->face_resolution());
+    std::vector<std::vector<float>> off;
+    std::vector<std::vector<float>> on;
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+        off.push_back(drag.lighting(turn));
+        on.push_back(off.back());
+        std::transform(lamp.begin(), lamp.end(), on.back().begin(), on.back().begin(),
+                       std::plus<>());
+    }
+    const wire::Budget budget{.milliseconds = {}, .coefficients = kTerms, .target_error = 0};
+    engine::Session session(scene, strategy);
+    double worst = 0;
+    for (std::size_t edit = 0; edit < edits; ++edit) {
+        const auto& lighting = edit % kPeriod < kLampOn ? on : off;
+        session.set_lighting(lighting[edit % kTurns]);
+        session.advance(budget);
+        if ((edit + 1) % (edits / kChecks) == 0) {
+            const auto exact = test::dense_product(scene->transport(), session.approximation());
+            worst = std::max(worst, dark_tenth_error(*scene, session.sums(), exact));
+        }
+    }
+    return worst;
+}
+
+void measure(Workbench& workbench, Results& results) {
+    const auto scene = workbench.drift_scene();
+    const std::size_t edits = workbench.quick() ? 10 * kPeriod : 1'000'000;
+    nlohmann::json& measured = results.measured("drift");
+    measured["edits"] = edits;
+    double worst = 0;
+    // The default, and the method that never resets of its own accord.
+    for (const wire::Strategy strategy :
+         {wire::Strategy{}, wire::Strategy{.method = wire::Method::bi}}) {
+        const double drift = worst_drift(scene, strategy, edits);
+        measured[std::string(wire::name_from(strategy.method))] = drift;
+        worst = std::max(worst, drift);
+    }
+    results.set("drift_dark_tenth", worst);
+}
+
+}  // namespace
+
+FigureGroup drift_figures() {
+    return {.figures = {{.key = "drift_dark_tenth",
+                         .meaning = "rounding after 10^6 edits, relative, darkest tenth",
+                         .aim = Aim::at_most,
+                         .target = 1e-4}},
+            .measure = measure};
+}
+
+}  // namespace relume::bench

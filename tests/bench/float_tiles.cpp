@@ -1,0 +1,129 @@
+#include "tests/bench/float_tiles.h"
+
+#include "precompute/bake/colour_split.h"
+#include "precompute/bake/light_model.h"
+#include "precompute/bake/row_baker.h"
+#include "precompute/bake/tile_window.h"
+#include "precompute/scene/builtin.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace relume::bench {
+namespace {
+
+using transport::kTileSide;
+
+class TileSampler {
+  public:
+    TileSampler(std::string_view scene,
+                const bake::BakeParameters& parameters,
+                const TestLights& lights)
+        : lights_(lights),
+          image_{.width = parameters.width, .height = parameters.height},
+          scene_(scene::build_builtin_scene(scene)),
+          camera_(scene_.camera, parameters.width, parameters.height),
+          caster_(scene_),
+          texels_(parameters.face_resolution, parameters.seed),
+          window_(caster_, camera_, parameters),
+          rows_(caster_, texels_, parameters),
+          pool_(window_, parameters.pool_radius),
+          quantisation_(bake::plan_quantisation(rows_, window_, image_, parameters)) {}
+
+    [[nodiscard]] const bake::Quantisation& quantisation() const { return quantisation_; }
+
+    // Tile rows must come in ascending order.
+    [[nodiscard]] FloatTile sample(std::uint32_t tile_x, std::uint32_t tile_y) {
+        window_.move_to(tile_y * kTileSide, std::min((tile_y + 1) * kTileSide, image_.height));
+        FloatTile tile{.block = tile_y * image_.tiles_x() + tile_x,
+                       .pixels = std::vector<FloatTile::Pixel>(transport::kBlockSize)};
+        tbb::parallel_for(std::uint32_t{0}, transport::kBlockSize, [&](std::uint32_t slot) {
+            const std::uint32_t x = tile_x * kTileSide + slot % kTileSide;
+            const std::uint32_t y = tile_y * kTileSide + slot / kTileSide;
+            if (x < image_.width && y < image_.height) {
+                sample_pixel(x, y, tile.pixels[slot]);
+            }
+        });
+        return tile;
+    }
+
+  private:
+    struct Scratch {
+        bake::CoefficientRow row;
+        bake::ChannelRow channels;
+        bake::RowBaker::Scratch rows;
+    };
+
+    void sample_pixel(std::uint32_t x, std::uint32_t y, FloatTile::Pixel& pixel) {
+        const bake::TracedPixel& traced = window_.pixel(x, y);
+        if (traced.view.surfaces.empty()) {
+            return;
+        }
+        Scratch& scratch = scratches_.local();
+        rows_.bake(traced, x, y, &pool_, scratch.row, scratch.rows);
+        bake::split_colours(quantisation_.colour, scratch.row, scratch.channels);
+        pixel.covered = true;
+        for (std::size_t c = 0; c < 3; ++c) {
+            pixel.tint[c] = scratch.channels.tint[static_cast<int>(c)];
+        }
+        for (std::uint32_t k = 0; k < quantisation_.colour.channels; ++k) {
+            pixel.channel[k] = scratch.channels.channel[k];
+        }
+        for (std::size_t light = 0; light < TestLights::kCount; ++light) {
+            const std::vector<float>& radiance = lights_.coefficients[light];
+            for (std::size_t c = 0; c < 3; ++c) {
+                for (std::size_t j = 0; j < radiance.size(); ++j) {
+                    pixel.exact[light][c] +=
+                        double{scratch.row.rgb[c][j]} * double{radiance[j]};
+                }
+            }
+        }
+    }
+
+    const TestLights& lights_;
+    transport::TileGrid image_;
+    scene::Scene scene_;
+    scene::Camera camera_;
+    bake::RayCaster caster_;
+    bake::LightTexels texels_;
+    bake::TileWindow window_;
+    bake::RowBaker rows_;
+    bake::PathPool pool_;
+    bake::Quantisation quantisation_;
+    tbb::enumerable_thread_specific<Scratch> scratches_;
+};
+
+// The middle of part i of `parts` equal ones.
+std::uint32_t middle_of(std::uint32_t i, std::uint32_t parts, std::uint32_t whole) {
+    return (2 * i + 1) * whole / (2 * parts);
+}
+
+}  // namespace
+
+TestLights::TestLights(std::uint32_t face_resolution) {
+    for (std::size_t i = 0; i < kPerKind; ++i) {
+        coefficients[i] = bake::natural_light(face_resolution, i);
+        coefficients[kPerKind + i] = bake::sun_light(face_resolution, i);
+    }
+}
+
+FloatTiles sample_tiles(std::string_view builtin_scene,
+                        const bake::BakeParameters& parameters,
+                        const TestLights& lights,
+                        std::uint32_t rows,
+                        std::uint32_t columns) {
+    TileSampler sampler(builtin_scene, parameters, lights);
+    const transport::TileGrid image{.width = parameters.width, .height = parameters.height};
+    FloatTiles tiles{.quantisation = sampler.quantisation(), .tiles = {}};
+    for (std::uint32_t row = 0; row < rows; ++row) {
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            tiles.tiles.push_back(sampler.sample(middle_of(column, columns, image.tiles_x()),
+                                                 middle_of(row, rows, image.tiles_y())));
+        }
+    }
+    return tiles;
+}
+
+}  // namespace relume::bench

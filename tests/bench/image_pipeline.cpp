@@ -1,0 +1,44 @@
+#include "tests/bench/image_pipeline.h"
+
+#include <utility>
+
+namespace relume::bench {
+
+ImagePipeline::ImagePipeline(std::shared_ptr<const engine::Scene> scene)
+    : scene_(std::move(scene)),
+      drag_(scene_->face_resolution()),
+      sky_(scene_->transport()),
+      session_(scene_, wire::Strategy{}),
+      composer_(sky_, scene_->image().width, scene_->image().height),
+      display_(wire::Display{}),
+      codes_(std::size_t{3} * scene_->image().width * scene_->image().height) {}
+
+ImagePipeline::~ImagePipeline() {
+    encoding_.wait();
+}
+
+void ImagePipeline::turn_light(std::size_t number) {
+    rig_ = drag_.rig(number);
+    light::evaluate(rig_, scene_->face_resolution(), cubemap_);
+    light::lighting_coefficients(cubemap_, coefficients_);
+    session_.set_lighting(coefficients_);
+}
+
+void ImagePipeline::begin_encoding() {
+    encoding_.wait();
+    composer_.set_background(wire::Background{}, rig_);
+    composer_.compose(session_);
+    encoding_.run([this] {
+        composer_.write_codes(display_, codes_);
+        jpeg_bytes_ =
+            jpeg_.encode(codes_, scene_->image().width, scene_->image().height, kMovingQuality)
+                .size();
+    });
+}
+
+std::size_t ImagePipeline::finish_encoding() {
+    encoding_.wait();
+    return jpeg_bytes_;
+}
+
+}  // namespace relume::bench

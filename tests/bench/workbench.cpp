@@ -1,0 +1,100 @@
+#include "tests/bench/workbench.h"
+
+#include "protocol/transport/error.h"
+#include "tests/bench/dense_transport.h"
+#include "tests/bench/programs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace relume::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<const engine::Scene> open_scene(const fs::path& directory) {
+    return std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+}
+
+// Null when it is not there, or of a format or version that is not today's.
+std::shared_ptr<const engine::Scene> open_if_whole(const fs::path& directory) {
+    try {
+        return open_scene(directory);
+    } catch (const transport::TransportError&) {
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+Workbench::Workbench(Options options) : options_(std::move(options)) {
+    fs::create_directories(options_.cache);
+}
+
+std::shared_ptr<const engine::Scene> Workbench::baked(
+    const std::string& name, const std::vector<std::string>& arguments) {
+    const fs::path directory = options_.cache / (name + ".relume");
+    if (auto scene = open_if_whole(directory)) {
+        return scene;
+    }
+    fmt::print(stderr, "baking {} (once)\n", directory.string());
+    std::vector<std::string> words = arguments;
+    words.insert(words.end(), {"-o", directory.string()});
+    run_to_end(bake_program(), words, options_.cache, name);
+    return open_scene(directory);
+}
+
+std::shared_ptr<const engine::Scene> Workbench::scene() {
+    if (!scene_) {
+        scene_ = options_.scene.empty()
+                     ? baked("mesh100k-512-64", {"--builtin", "mesh100k", "--bounces", "0"})
+                     : open_scene(options_.scene);
+    }
+    return scene_;
+}
+
+std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
+    if (!dense_scene_) {
+        const DenseTransportSize size = quick() ? kQuickDenseTransport : kDenseTransport;
+        const fs::path directory =
+            options_.cache /
+            fmt::format("dense-{}x{}-{}.relume", size.width, size.height, size.face_resolution);
+        dense_scene_ = open_if_whole(directory);
+        if (!dense_scene_) {
+            fmt::print(stderr, "writing {} (once)\n", directory.string());
+            write_dense_transport(directory, size);
+            dense_scene_ = open_scene(directory);
+        }
+    }
+    return dense_scene_;
+}
+
+std::shared_ptr<const engine::Scene> Workbench::drift_scene() {
+    return baked("drift-64-8", {"--builtin", "table", "--size", "64x48", "--light-resolution",
+                                "8", "--bounces", "1", "--samples", "16"});
+}
+
+std::shared_ptr<const engine::Scene> Workbench::flagship_scene() {
+    return baked("flagship-1920-64",
+                 {"--builtin", "table", "--size", "1920x1080", "--bounces", "1"});
+}
+
+ReadBandwidth& Workbench::read_bandwidth() {
+    if (!read_bandwidth_) {
+        constexpr std::size_t kBytes = std::size_t{1} << 30U;
+        constexpr std::size_t kQuickBytes = std::size_t{64} << 20U;
+        read_bandwidth_ = std::make_unique<ReadBandwidth>(quick() ? kQuickBytes : kBytes);
+    }
+    return *read_bandwidth_;
+}
+
+std::vector<int> Workbench::thread_counts() {
+    return std::thread::hardware_concurrency() > 1 ? std::vector<int>{1, 2}
+                                                   : std::vector<int>{1};
+}
+
+}  // namespace relume::bench
