@@ -36,6 +36,7 @@ const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCe
 struct SegmentView {
     const std::uint8_t* tags = nullptr;
     const std::uint8_t* cells = nullptr;
+    const std::uint8_t* end = nullptr;  // of the cells
 
     [[nodiscard]] bool empty() const { return tags == nullptr; }
     [[nodiscard]] CellTag tag(std::uint32_t block_in_shard) const {

@@ -43,7 +43,9 @@ void check_segment(std::span<const std::uint8_t> segment, std::uint32_t block_co
         throw TransportError(
             fmt::format("{} bytes, expected at least {} bytes of tags", segment.size(), tags));
     }
-    const SegmentView view{.tags = segment.data(), .cells = segment.data() + tags};
+    const SegmentView view{.tags = segment.data(),
+                           .cells = segment.data() + tags,
+                           .end = segment.data() + segment.size()};
     if (block_count % 2 == 1 && (segment[tags - 1] >> 4) != 0) {
         throw TransportError("the unused last tag is not zero");
     }

@@ -40,7 +40,9 @@ class ShardReader {
             return {};
         }
         const std::uint8_t* tags = data_.data() + begin;
-        return {.tags = tags, .cells = tags + tag_bytes(header_.block_count)};
+        return {.tags = tags,
+                .cells = tags + tag_bytes(header_.block_count),
+                .end = data_.data() + index_[i + 1]};
     }
     [[nodiscard]] std::uint32_t segment_bytes(std::size_t column, std::uint32_t channel) const {
         const std::size_t i = column * header_.channels + channel;

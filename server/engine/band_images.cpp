@@ -18,9 +18,6 @@ using transport::kColours;
 
 constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
 
-// One shard's worth of sums; stays in the second-level cache.
-using ShardSums = std::array<float, transport::kMaxBlocksPerShard * kSumsPerBlock>;
-
 // The segments of the columns in one shard, weighted; replaces the content of `segments`.
 void gather_segments(const transport::Transport& transport,
                      const transport::ShardReader& shard,
@@ -95,7 +92,7 @@ void BandImages::update_shard(std::size_t shard,
         const bool clear = ((bands_to_clear >> band) & 1U) != 0;
         const auto of_band = changes_of_band(changes, scene_->bands(), band);
         if (clear || !of_band.empty()) {
-            update_band(shard, band, clear, of_band);
+            update_band(shard, band, clear, bands_to_clear != 0, of_band);
         }
     }
     if (bands_to_clear != 0) {
@@ -106,20 +103,18 @@ void BandImages::update_shard(std::size_t shard,
 void BandImages::update_band(std::size_t shard,
                              std::uint32_t band,
                              bool clear,
+                             bool total_is_resummed,
                              std::span<const ColumnChange> changes) {
-    alignas(64) thread_local ShardSums storage;
     const std::span<float> image = part(bands_[band], shard);
-    const std::span<float> difference = std::span(storage).first(image.size());
-    std::fill(difference.begin(), difference.end(), 0.0F);
+    if (clear) {
+        std::fill(image.begin(), image.end(), 0.0F);
+    }
     thread_local std::vector<WeightedSegment> segments;
     const transport::ShardReader& reader = scene_->transport().shards()[shard];
     gather_segments(scene_->transport(), reader, changes, segments);
-    accumulate_segments(segments, reader.block_count(), difference.data());
-    if (clear) {
-        std::copy(difference.begin(), difference.end(), image.begin());
-    } else {
-        add_to_both(difference, image, part(total_, shard));
-    }
+    accumulate_segments(segments, reader.block_count(),
+                        {.sums = image.data(),
+                         .total = total_is_resummed ? nullptr : part(total_, shard).data()});
     energies_[shard * bands_.size() + band] = squared_norm(image);
 }
 

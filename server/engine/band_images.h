@@ -53,6 +53,7 @@ class BandImages {
     void update_band(std::size_t shard,
                      std::uint32_t band,
                      bool clear,
+                     bool total_is_resummed,
                      std::span<const ColumnChange> changes);
     void sum_bands(std::size_t shard);
     void record_drift(std::uint32_t band, bool cleared);

@@ -77,22 +77,25 @@ CellStream::CellStream(const CellKind& kind, std::uint32_t block_count, std::siz
         }
     }
     const std::size_t count =
-        std::max<std::size_t>(engine::kSegmentGroup, bytes / columns.front().size());
+        std::max<std::size_t>(kFewestColumns, bytes / columns.front().size());
     std::vector<std::size_t> begins;
+    std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < count; ++i) {
         const std::vector<std::uint8_t>& column = columns[i % kDifferent];
         begins.push_back(data_.size());
         data_.insert(data_.end(), column.begin(), column.end());
+        ends.push_back(data_.size());
     }
     bytes_ = data_.size();
     // As behind a shard's data: vector loads may run past the last cell.
     data_.resize(bytes_ + transport::kShardTailBytes, 0);
     std::uniform_real_distribution<float> weight(-1, 1);
-    for (const std::size_t begin : begins) {
-        const std::uint8_t* tags = data_.data() + begin;
-        segments_.push_back(
-            {.segment = {.tags = tags, .cells = tags + transport::tag_bytes(block_count)},
-             .weights = {weight(random), weight(random), weight(random)}});
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* tags = data_.data() + begins[i];
+        segments_.push_back({.segment = {.tags = tags,
+                                         .cells = tags + transport::tag_bytes(block_count),
+                                         .end = data_.data() + ends[i]},
+                             .weights = {weight(random), weight(random), weight(random)}});
     }
 }
 

@@ -24,7 +24,9 @@ struct CellKind {
 
 class CellStream {
   public:
-    // As many columns of `block_count` cells as fill `bytes`, at least kSegmentGroup of them.
+    static constexpr std::size_t kFewestColumns = 32;
+
+    // As many columns of `block_count` cells as fill `bytes`, at least kFewestColumns of them.
     // Throws std::logic_error when the writer chose another encoding than the kind's name says.
     CellStream(const CellKind& kind, std::uint32_t block_count, std::size_t bytes);
 

@@ -36,7 +36,7 @@ void run_kernel(benchmark::State& state,
     engine::AccumulateSegments* const kernel =
         target ? engine::accumulate_segments : engine::accumulate_segments_scalar;
     for (auto _ : state) {
-        kernel(stream.segments(), kBlocks, sums.data());
+        kernel(stream.segments(), kBlocks, {.sums = sums.data(), .total = nullptr});
         benchmark::ClobberMemory();
     }
     hwy::SetSupportedTargetsForTest(0);

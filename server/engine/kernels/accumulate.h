@@ -18,18 +18,42 @@ struct WeightedSegment {
     ColourWeights weights;
 };
 
-// Segments are taken this many at a time, so that sums go through the registers once for all.
-inline constexpr std::size_t kSegmentGroup = 8;
+// Where the segments of one shard are added: [block_count][3][256], with no overlap. `total`
+// may be null.
+struct SumTargets {
+    float* sums = nullptr;
+    float* total = nullptr;
+};
 
-// For every segment s, block b of the shard, colour c and slot i:
-//     sums[b][c][i] += weights(s,c)·q(s,b,i)
-// `sums` is [block_count][3][256]. The order of additions is part of the contract: within each
-// group of kSegmentGroup segments a block receives first its dense and bitmap cells, then its
-// sparse cells, both in the order of the segments, a product rounded before it is added. So
-// every target gives the same bits.
+// Segments are taken in groups, so that a block's sums go through the registers once for all
+// its cells, and so that a group's cells stay in the second-level cache.
+inline constexpr std::size_t kMaxGroupSegments = 256;
+inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
+
+// The first group of those that are left; at least one segment.
+[[nodiscard]] inline std::span<const WeightedSegment> next_group(
+    std::span<const WeightedSegment> left) {
+    std::size_t count = 0;
+    std::size_t bytes = 0;
+    while (count < left.size() && count < kMaxGroupSegments &&
+           (count == 0 || bytes < kMaxGroupBytes)) {
+        const transport::SegmentView& segment = left[count++].segment;
+        bytes += static_cast<std::size_t>(segment.end - segment.cells);
+    }
+    return left.first(count);
+}
+
+// For every segment s, block b of the shard, colour c and slot i, adds weights(s,c)·q(s,b,i) to
+// both targets. The order is part of the contract, so that every instruction set gives the same
+// bits:
+// - of each group of segments, a block's 8-bit cells (dense8, bitmap8), then its 16-bit cells,
+//   then its float cells, each in the order of the segments, are added up from zero, and the
+//   result is added to the targets; after the last group, the same goes for all its sparse
+//   cells;
+// - every product is added without rounding in between (fused multiply-add).
 using AccumulateSegments = void(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,
-                                float* sums);
+                                const SumTargets& targets);
 
 // The specification: one value at a time.
 AccumulateSegments accumulate_segments_scalar;

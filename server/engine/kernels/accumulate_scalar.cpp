@@ -1,6 +1,8 @@
 #include "server/engine/kernels/accumulate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace relume::engine {
 namespace {
@@ -10,39 +12,61 @@ using transport::DecodedCell;
 using transport::kBlockSize;
 using transport::kColours;
 
-// Adds the next block's cell of one segment if it is, or is not, sparse; moves past it.
-const std::uint8_t* add_cell(const WeightedSegment& segment,
-                             std::uint32_t block,
-                             const std::uint8_t* cell,
-                             bool sparse,
-                             float* sums) {
-    const CellTag tag = segment.segment.tag(block);
-    if (tag == CellTag::empty || (tag == CellTag::sparse8) != sparse) {
-        return cell;
+enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, sparse };
+
+CellKind kind_of(CellTag tag) {
+    switch (tag) {
+        case CellTag::empty:
+            return CellKind::empty;
+        case CellTag::dense8:
+        case CellTag::bitmap8:
+            return CellKind::bits8;
+        case CellTag::dense16:
+        case CellTag::bitmap16:
+            return CellKind::bits16;
+        case CellTag::dense32f:
+            return CellKind::floats;
+        case CellTag::sparse8:
+            return CellKind::sparse;
     }
-    DecodedCell values;
-    const std::uint8_t* end = transport::decode_cell(tag, cell, values);
-    for (std::size_t c = 0; c < kColours; ++c) {
-        for (std::size_t i = 0; i < kBlockSize; ++i) {
-            sums[c * kBlockSize + i] += segment.weights[c] * values[i];
-        }
-    }
-    return end;
+    return CellKind::empty;
 }
 
-void accumulate_group(std::span<const WeightedSegment> group,
-                      std::uint32_t block_count,
-                      float* sums) {
-    std::array<const std::uint8_t*, kSegmentGroup> cells{};
-    for (std::size_t s = 0; s < group.size(); ++s) {
-        cells[s] = group[s].segment.cells;
-    }
-    for (std::uint32_t block = 0; block < block_count; ++block) {
-        float* block_sums = sums + std::size_t{block} * kColours * kBlockSize;
-        for (const bool sparse : {false, true}) {
-            for (std::size_t s = 0; s < group.size(); ++s) {
-                cells[s] = add_cell(group[s], block, cells[s], sparse, block_sums);
+// Sums of one block, [3][256].
+using BlockSums = std::array<float, kColours * kBlockSize>;
+
+// Adds the block's cells of one kind up, in the order of the segments; whether there are any.
+// `cells` are those of this block.
+bool add_cells(std::span<const WeightedSegment> segments,
+               std::span<const std::uint8_t* const> cells,
+               std::uint32_t block,
+               CellKind kind,
+               BlockSums& sums) {
+    bool any = false;
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+        const CellTag tag = segments[s].segment.tag(block);
+        if (kind_of(tag) != kind) {
+            continue;
+        }
+        any = true;
+        DecodedCell values;
+        transport::decode_cell(tag, cells[s], values);
+        for (std::size_t c = 0; c < kColours; ++c) {
+            for (std::size_t i = 0; i < kBlockSize; ++i) {
+                float& sum = sums[c * kBlockSize + i];
+                sum = std::fma(segments[s].weights[c], values[i], sum);
             }
+        }
+    }
+    return any;
+}
+
+void add_to_targets(const BlockSums& sums, std::uint32_t block, const SumTargets& targets) {
+    const std::size_t first = std::size_t{block} * sums.size();
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        targets.sums[first + i] += sums[i];
+        if (targets.total != nullptr) {
+            targets.total[first + i] += sums[i];
         }
     }
 }
@@ -51,10 +75,32 @@ void accumulate_group(std::span<const WeightedSegment> group,
 
 void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,
-                                float* sums) {
-    for (std::size_t first = 0; first < segments.size(); first += kSegmentGroup) {
-        const std::size_t count = std::min(kSegmentGroup, segments.size() - first);
-        accumulate_group(segments.subspan(first, count), block_count, sums);
+                                const SumTargets& targets) {
+    std::vector<const std::uint8_t*> cells;
+    for (const WeightedSegment& segment : segments) {
+        cells.push_back(segment.segment.cells);
+    }
+    for (std::uint32_t block = 0; block < block_count; ++block) {
+        for (std::size_t first = 0; first < segments.size();) {
+            const auto group = next_group(segments.subspan(first));
+            const auto group_cells = std::span(cells).subspan(first, group.size());
+            BlockSums sums{};
+            bool any = false;
+            for (const CellKind kind : {CellKind::bits8, CellKind::bits16, CellKind::floats}) {
+                any = add_cells(group, group_cells, block, kind, sums) || any;
+            }
+            if (any) {
+                add_to_targets(sums, block, targets);
+            }
+            first += group.size();
+        }
+        BlockSums sums{};
+        if (add_cells(segments, cells, block, CellKind::sparse, sums)) {
+            add_to_targets(sums, block, targets);
+        }
+        for (std::size_t s = 0; s < segments.size(); ++s) {
+            cells[s] += transport::cell_bytes(segments[s].segment.tag(block), cells[s]);
+        }
     }
 }
 

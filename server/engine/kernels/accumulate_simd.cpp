@@ -11,9 +11,23 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
+
+// Must come after highway.h, in a group of its own so that no formatter sorts it.
+#include "server/engine/kernels/cell_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace relume::engine::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR  // no fused multiply-add: the specification does
+
+void accumulate(std::span<const WeightedSegment> segments,
+                std::uint32_t block_count,
+                const SumTargets& targets) {
+    accumulate_segments_scalar(segments, block_count, targets);
+}
+
+#else
+
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -22,181 +36,313 @@ using transport::kBitmapBytes;
 using transport::kBlockSize;
 using transport::kColours;
 
-using ExpandedCell = std::array<std::int8_t, kBlockSize>;
+constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
 
-// The 8-bit cells of one block that are added together: at most one per segment.
-struct DenseCells {
-    std::array<const std::int8_t*, kSegmentGroup> values{};
-    std::array<const ColourWeights*, kSegmentGroup> weights{};
-    std::size_t count = 0;
-
-    void add(const std::int8_t* cell, const ColourWeights& cell_weights) {
-        values[count] = cell;
-        weights[count] = &cell_weights;
-        ++count;
-    }
+// Spread packed values to the slots whose bits are set. Read up to 64 bytes beyond the cell: a
+// shard's data has a tail (kShardTailBytes).
+struct BitmapExpansion {
+    void (*bits8)(const std::uint8_t* cell, std::int8_t* values);
+    void (*bits16)(const std::uint8_t* cell, std::int16_t* values);
 };
 
-// Sums of 256 slots × 3 colours pass through registers once for all cells.
-void add_dense(const DenseCells& cells, float* HWY_RESTRICT sums) {
-    const hn::CappedTag<float, 16> df;
-    const hn::Rebind<std::int32_t, decltype(df)> d32;
-    const hn::Rebind<std::int8_t, decltype(df)> d8;
-    const std::size_t lanes = hn::Lanes(df);
-    float* HWY_RESTRICT red = sums;
-    float* HWY_RESTRICT green = sums + kBlockSize;
-    float* HWY_RESTRICT blue = sums + 2 * kBlockSize;
-    for (std::size_t i = 0; i < kBlockSize; i += 2 * lanes) {
-        auto r0 = hn::LoadU(df, red + i);
-        auto g0 = hn::LoadU(df, green + i);
-        auto b0 = hn::LoadU(df, blue + i);
-        auto r1 = hn::LoadU(df, red + i + lanes);
-        auto g1 = hn::LoadU(df, green + i + lanes);
-        auto b1 = hn::LoadU(df, blue + i + lanes);
-        for (std::size_t s = 0; s < cells.count; ++s) {
-            const std::int8_t* HWY_RESTRICT values = cells.values[s] + i;
-            const float* HWY_RESTRICT weights = cells.weights[s]->data();
-            const auto v0 = hn::ConvertTo(df, hn::PromoteTo(d32, hn::LoadU(d8, values)));
-            const auto v1 =
-                hn::ConvertTo(df, hn::PromoteTo(d32, hn::LoadU(d8, values + lanes)));
-            const auto wr = hn::Set(df, weights[0]);
-            const auto wg = hn::Set(df, weights[1]);
-            const auto wb = hn::Set(df, weights[2]);
-            r0 = hn::Add(r0, hn::Mul(wr, v0));
-            g0 = hn::Add(g0, hn::Mul(wg, v0));
-            b0 = hn::Add(b0, hn::Mul(wb, v0));
-            r1 = hn::Add(r1, hn::Mul(wr, v1));
-            g1 = hn::Add(g1, hn::Mul(wg, v1));
-            b1 = hn::Add(b1, hn::Mul(wb, v1));
-        }
-        hn::StoreU(r0, df, red + i);
-        hn::StoreU(g0, df, green + i);
-        hn::StoreU(b0, df, blue + i);
-        hn::StoreU(r1, df, red + i + lanes);
-        hn::StoreU(g1, df, green + i + lanes);
-        hn::StoreU(b1, df, blue + i + lanes);
-    }
-}
-
-// Spreads packed 8-bit values to the slots whose bits are set, eight slots a step by table.
-// Reads up to eight bytes beyond the cell: a shard's data has a tail (kShardTailBytes).
-void expand_bitmap8(const std::uint8_t* cell, ExpandedCell& values) {
-    auto* out = reinterpret_cast<std::uint8_t*>(values.data());
+void expand8_by_table(const std::uint8_t* cell, std::int8_t* values) {
+    const hn::CappedTag<std::uint8_t, 8> d8;
+    auto* out = reinterpret_cast<std::uint8_t*>(values);
     const std::uint8_t* packed = cell + kBitmapBytes;
     for (std::size_t byte = 0; byte < kBitmapBytes; ++byte, out += 8) {
         const std::uint8_t mask = cell[byte];
-#if HWY_TARGET == HWY_SCALAR
-        for (std::size_t bit = 0; bit < 8; ++bit) {
-            const std::uint8_t place = kBitmapShuffles[mask][bit];
-            out[bit] = place < 8 ? packed[place] : 0;
-        }
-#else
-        const hn::CappedTag<std::uint8_t, 8> d8;
         const auto places = hn::LoadU(d8, kBitmapShuffles[mask].data());
         hn::StoreU(hn::TableLookupBytesOr0(hn::LoadU(d8, packed), places), d8, out);
-#endif
         packed += std::popcount(mask);
     }
 }
 
-// 16-bit and float cells are rare: decoded, then added one at a time.
-void add_wide(CellTag tag,
-              const std::uint8_t* cell,
-              const ColourWeights& weights,
-              float* HWY_RESTRICT sums) {
-    const hn::CappedTag<float, 16> df;
-    transport::DecodedCell values;
-    transport::decode_cell(tag, cell, values);
-    for (std::size_t c = 0; c < kColours; ++c) {
-        const auto weight = hn::Set(df, weights[c]);
-        float* colour = sums + c * kBlockSize;
-        for (std::size_t i = 0; i < kBlockSize; i += hn::Lanes(df)) {
-            const auto product = hn::Mul(weight, hn::LoadU(df, &values[i]));
-            hn::StoreU(hn::Add(hn::LoadU(df, colour + i), product), df, colour + i);
+void expand16_one_by_one(const std::uint8_t* cell, std::int16_t* values) {
+    std::fill_n(values, kBlockSize, std::int16_t{0});
+    const std::uint8_t* packed = cell + kBitmapBytes;
+    for (std::size_t byte = 0; byte < kBitmapBytes; ++byte, values += 8) {
+        for (unsigned mask = cell[byte]; mask != 0; mask &= mask - 1) {
+            std::memcpy(values + std::countr_zero(mask), packed, sizeof(std::int16_t));
+            packed += sizeof(std::int16_t);
         }
     }
 }
 
-void add_sparse(const std::uint8_t* cell, const ColourWeights& weights, float* sums) {
-    const std::size_t count = cell[0];
-    const std::uint8_t* slots = cell + 1;
-    const std::uint8_t* values = slots + count;
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto value = static_cast<float>(static_cast<std::int8_t>(values[i]));
-        float* slot = sums + slots[i];
-        slot[0] += weights[0] * value;
-        slot[kBlockSize] += weights[1] * value;
-        slot[2 * kBlockSize] += weights[2] * value;
+#if HWY_TARGET == HWY_AVX3
+// Ice Lake's expansion, which Highway 1.0 has no operation for.
+__attribute__((target("avx512vbmi2"))) void expand8_by_instruction(const std::uint8_t* cell,
+                                                                   std::int8_t* values) {
+    const std::uint8_t* packed = cell + kBitmapBytes;
+    for (std::size_t at = 0; at < kBitmapBytes; at += sizeof(__mmask64), values += 64) {
+        __mmask64 mask = 0;
+        std::memcpy(&mask, cell + at, sizeof(mask));
+        const __m512i run = _mm512_loadu_si512(packed);
+        _mm512_storeu_si512(values, _mm512_maskz_expand_epi8(mask, run));
+        packed += std::popcount(mask);
     }
 }
 
-// One group of segments, cell by cell.
-class Group {
-  public:
-    explicit Group(std::span<const WeightedSegment> segments) : segments_(segments) {
-        for (std::size_t s = 0; s < segments.size(); ++s) {
-            cells_[s] = segments[s].segment.cells;
+__attribute__((target("avx512vbmi2"))) void expand16_by_instruction(const std::uint8_t* cell,
+                                                                    std::int16_t* values) {
+    const std::uint8_t* packed = cell + kBitmapBytes;
+    for (std::size_t at = 0; at < kBitmapBytes; at += sizeof(__mmask32), values += 32) {
+        __mmask32 mask = 0;
+        std::memcpy(&mask, cell + at, sizeof(mask));
+        const __m512i run = _mm512_loadu_si512(packed);
+        _mm512_storeu_si512(values, _mm512_maskz_expand_epi16(mask, run));
+        packed += sizeof(std::int16_t) * static_cast<std::size_t>(std::popcount(mask));
+    }
+}
+
+BitmapExpansion best_expansion() {
+    if (__builtin_cpu_supports("avx512vbmi2") != 0) {
+        return {expand8_by_instruction, expand16_by_instruction};
+    }
+    return {expand8_by_table, expand16_one_by_one};
+}
+#else
+BitmapExpansion best_expansion() {
+    return {expand8_by_table, expand16_one_by_one};
+}
+#endif
+
+// Values of the cells of one block, each with its weights.
+template <typename Value>
+struct CellValues {
+    std::array<const Value*, kMaxGroupSegments> values;
+    std::array<const float*, kMaxGroupSegments> weights;
+    std::size_t count = 0;
+
+    void add(const Value* cell, const ColourWeights& cell_weights) {
+        values[count] = cell;
+        weights[count] = cell_weights.data();
+        ++count;
+    }
+};
+
+template <typename D>
+HWY_INLINE hn::Vec<D> load_values(D df, const std::int8_t* values) {
+    const hn::Rebind<std::int32_t, D> d32;
+    const hn::Rebind<std::int8_t, D> d8;
+    return hn::ConvertTo(df, hn::PromoteTo(d32, hn::LoadU(d8, values)));
+}
+
+template <typename D>
+HWY_INLINE hn::Vec<D> load_values(D df, const std::int16_t* values) {
+    const hn::Rebind<std::int32_t, D> d32;
+    const hn::Rebind<std::int16_t, D> d16;
+    return hn::ConvertTo(df, hn::PromoteTo(d32, hn::LoadU(d16, values)));
+}
+
+template <typename D>
+HWY_INLINE hn::Vec<D> load_values(D df, const float* values) {
+    return hn::LoadU(df, values);
+}
+
+// Two vectors of slots in three colours, summed in registers.
+template <typename D>
+struct Registers {
+    hn::Vec<D> red[2], green[2], blue[2];
+
+    template <typename Value>
+    HWY_INLINE void add(D df, const CellValues<Value>& cells, std::size_t slot) {
+        for (std::size_t s = 0; s < cells.count; ++s) {
+            const Value* HWY_RESTRICT values = cells.values[s] + slot;
+            const float* HWY_RESTRICT weights = cells.weights[s];
+            const auto v0 = load_values(df, values);
+            const auto v1 = load_values(df, values + hn::Lanes(df));
+            const auto r = hn::Set(df, weights[0]);
+            const auto g = hn::Set(df, weights[1]);
+            const auto b = hn::Set(df, weights[2]);
+            red[0] = hn::MulAdd(r, v0, red[0]);
+            green[0] = hn::MulAdd(g, v0, green[0]);
+            blue[0] = hn::MulAdd(b, v0, blue[0]);
+            red[1] = hn::MulAdd(r, v1, red[1]);
+            green[1] = hn::MulAdd(g, v1, green[1]);
+            blue[1] = hn::MulAdd(b, v1, blue[1]);
         }
     }
 
-    void add_block(std::uint32_t block, float* sums) {
-        DenseCells dense;
-        std::array<const std::uint8_t*, kSegmentGroup> sparse{};
-        std::array<const ColourWeights*, kSegmentGroup> sparse_weights{};
-        std::size_t sparse_count = 0;
-        for (std::size_t s = 0; s < segments_.size(); ++s) {
-            const WeightedSegment& segment = segments_[s];
-            const std::uint8_t* cell = cells_[s];
-            const CellTag tag = segment.segment.tag(block);
-            switch (tag) {
-                case CellTag::empty:
-                    continue;
-                case CellTag::dense8:
-                    dense.add(reinterpret_cast<const std::int8_t*>(cell), segment.weights);
-                    break;
-                case CellTag::bitmap8:
-                    expand_bitmap8(cell, expanded_[s]);
-                    dense.add(expanded_[s].data(), segment.weights);
-                    break;
-                case CellTag::sparse8:
-                    sparse[sparse_count] = cell;
-                    sparse_weights[sparse_count++] = &segment.weights;
-                    break;
-                default:
-                    // Keeps the order of additions: what came before goes in first.
-                    add_dense(dense, sums);
-                    dense.count = 0;
-                    add_wide(tag, cell, segment.weights, sums);
-                    break;
+    HWY_INLINE void store(D df, float* HWY_RESTRICT sums) const {
+        for (std::size_t half = 0; half < 2; ++half, sums += hn::Lanes(df)) {
+            store_one(df, red[half], sums);
+            store_one(df, green[half], sums + kBlockSize);
+            store_one(df, blue[half], sums + 2 * kBlockSize);
+        }
+    }
+    static HWY_INLINE void store_one(D df, hn::Vec<D> sum, float* HWY_RESTRICT target) {
+        hn::StoreU(hn::Add(hn::LoadU(df, target), sum), df, target);
+    }
+};
+
+// The cells of one block that are summed together.
+struct BlockValues {
+    CellValues<std::int8_t> bits8;
+    CellValues<std::int16_t> bits16;
+    CellValues<float> floats;
+
+    void clear() { bits8.count = bits16.count = floats.count = 0; }
+    [[nodiscard]] bool empty() const { return bits8.count + bits16.count + floats.count == 0; }
+
+    // Sums of all slots pass through registers once for all cells.
+    void add_to(float* HWY_RESTRICT sums, float* HWY_RESTRICT total) const {
+        const hn::CappedTag<float, 16> df;
+        const std::size_t lanes = hn::Lanes(df);
+        for (std::size_t slot = 0; slot < kBlockSize; slot += 2 * lanes) {
+            const auto zero = hn::Zero(df);
+            Registers<decltype(df)> registers{{zero, zero}, {zero, zero}, {zero, zero}};
+            registers.add(df, bits8, slot);
+            registers.add(df, bits16, slot);
+            registers.add(df, floats, slot);
+            registers.store(df, sums + slot);
+            if (total != nullptr) {
+                registers.store(df, total + slot);
             }
-            cells_[s] = cell + transport::cell_bytes(tag, cell);
         }
-        if (dense.count != 0) {
-            add_dense(dense, sums);
+    }
+};
+
+// What sparse cells add up to, colours side by side so that a value is one addition; by block,
+// zero until the block's first sparse cell.
+class SparseSums {
+  public:
+    void clear() { used_ = 0; }
+
+    void add(std::uint32_t block, const std::uint8_t* cell, const ColourWeights& weights) {
+        const hn::FixedTag<float, 4> d4;
+        float* HWY_RESTRICT sums = sums_[block].data();
+        if (((used_ >> block) & 1U) == 0) {
+            used_ |= std::uint64_t{1} << block;
+            sums_[block].fill(0);
         }
-        for (std::size_t s = 0; s < sparse_count; ++s) {
-            add_sparse(sparse[s], *sparse_weights[s], sums);
+        const std::array<float, 4> padded{weights[0], weights[1], weights[2], 0};
+        const auto w = hn::LoadU(d4, padded.data());
+        const std::size_t count = cell[0];
+        const std::uint8_t* slots = cell + 1;
+        const auto* values = reinterpret_cast<const std::int8_t*>(slots + count);
+        for (std::size_t i = 0; i < count; ++i) {
+            float* slot = sums + std::size_t{4} * slots[i];
+            const auto value = hn::Set(d4, static_cast<float>(values[i]));
+            hn::Store(hn::MulAdd(w, value, hn::Load(d4, slot)), d4, slot);
+        }
+    }
+
+    void add_to(const SumTargets& targets) const {
+        for (std::uint64_t left = used_; left != 0; left &= left - 1) {
+            const auto block = static_cast<std::size_t>(std::countr_zero(left));
+            add_block(sums_[block].data(), targets.sums + block * kSumsPerBlock);
+            if (targets.total != nullptr) {
+                add_block(sums_[block].data(), targets.total + block * kSumsPerBlock);
+            }
         }
     }
 
   private:
-    std::span<const WeightedSegment> segments_;
-    std::array<const std::uint8_t*, kSegmentGroup> cells_{};
-    std::array<ExpandedCell, kSegmentGroup> expanded_;
+    static void add_block(const float* HWY_RESTRICT sums, float* HWY_RESTRICT target) {
+        const hn::FixedTag<float, 4> d4;
+        for (std::size_t slot = 0; slot < kBlockSize; slot += 4) {
+            hn::Vec<decltype(d4)> red, green, blue, unused;
+            hn::LoadInterleaved4(d4, sums + 4 * slot, red, green, blue, unused);
+            Registers<decltype(d4)>::store_one(d4, red, target + slot);
+            Registers<decltype(d4)>::store_one(d4, green, target + kBlockSize + slot);
+            Registers<decltype(d4)>::store_one(d4, blue, target + 2 * kBlockSize + slot);
+        }
+    }
+
+    alignas(
+        64) std::array<std::array<float, 4 * kBlockSize>, transport::kMaxBlocksPerShard> sums_;
+    std::uint64_t used_ = 0;
+};
+static_assert(transport::kMaxBlocksPerShard <= 64);
+
+// What a thread keeps from call to call; too large for its stack.
+class Workspace {
+  public:
+    void accumulate(std::span<const WeightedSegment> segments,
+                    std::uint32_t block_count,
+                    const SumTargets& targets) {
+        sparse_.clear();
+        while (!segments.empty()) {
+            const auto group = next_group(segments);
+            lists_.fill(group, block_count);
+            for (std::uint32_t block = 0; block < block_count; ++block) {
+                take_cells(group, block);
+                if (!values_.empty()) {
+                    const std::size_t first = std::size_t{block} * kSumsPerBlock;
+                    values_.add_to(targets.sums + first,
+                                   targets.total != nullptr ? targets.total + first : nullptr);
+                }
+            }
+            segments = segments.subspan(group.size());
+        }
+        sparse_.add_to(targets);
+    }
+
+  private:
+    // Sparse cells are added to their sums, the others go into values_.
+    void take_cells(std::span<const WeightedSegment> group, std::uint32_t block) {
+        values_.clear();
+        for (const ListedCell& listed : lists_.of_block(block)) {
+            const ColourWeights& weights = group[listed.segment].weights;
+            const std::uint8_t* cell = listed.cell;
+            switch (listed.tag) {
+                case CellTag::empty:
+                    break;
+                case CellTag::dense8:
+                    values_.bits8.add(reinterpret_cast<const std::int8_t*>(cell), weights);
+                    break;
+                case CellTag::bitmap8: {
+                    std::int8_t* values = expanded8_[values_.bits8.count].data();
+                    expansion_.bits8(cell, values);
+                    values_.bits8.add(values, weights);
+                    break;
+                }
+                case CellTag::sparse8:
+                    sparse_.add(block, cell, weights);
+                    break;
+                case CellTag::dense16: {
+                    std::int16_t* values = expanded16_[values_.bits16.count].data();
+                    std::memcpy(values, cell, kBlockSize * sizeof(std::int16_t));
+                    values_.bits16.add(values, weights);
+                    break;
+                }
+                case CellTag::bitmap16: {
+                    std::int16_t* values = expanded16_[values_.bits16.count].data();
+                    expansion_.bits16(cell, values);
+                    values_.bits16.add(values, weights);
+                    break;
+                }
+                case CellTag::dense32f: {
+                    transport::DecodedCell& values = decoded_[values_.floats.count];
+                    transport::decode_cell(listed.tag, cell, values);
+                    values_.floats.add(values.data(), weights);
+                    break;
+                }
+            }
+        }
+    }
+
+    const BitmapExpansion expansion_ = best_expansion();
+    CellLists lists_;
+    BlockValues values_;
+    SparseSums sparse_;
+    // By place in values_.
+    std::array<std::array<std::int8_t, kBlockSize>, kMaxGroupSegments> expanded8_;
+    std::array<std::array<std::int16_t, kBlockSize>, kMaxGroupSegments> expanded16_;
+    std::array<transport::DecodedCell, kMaxGroupSegments> decoded_;
 };
 
 }  // namespace
 
 void accumulate(std::span<const WeightedSegment> segments,
                 std::uint32_t block_count,
-                float* sums) {
-    for (std::size_t first = 0; first < segments.size(); first += kSegmentGroup) {
-        Group group(segments.subspan(first, std::min(kSegmentGroup, segments.size() - first)));
-        for (std::uint32_t block = 0; block < block_count; ++block) {
-            group.add_block(block, sums + std::size_t{block} * kColours * kBlockSize);
-        }
-    }
+                const SumTargets& targets) {
+    // On the heap: the address of a thread's own object would be asked for in every loop.
+    thread_local const auto workspace = std::make_unique<Workspace>();
+    workspace->accumulate(segments, block_count, targets);
 }
+
+#endif  // HWY_SCALAR
 
 }  // namespace relume::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -208,14 +354,14 @@ HWY_EXPORT(accumulate);
 
 void accumulate_segments(std::span<const WeightedSegment> segments,
                          std::uint32_t block_count,
-                         float* sums) {
+                         const SumTargets& targets) {
     static const bool scalar = scalar_is_forced();
     if (scalar) {
-        accumulate_segments_scalar(segments, block_count, sums);
+        accumulate_segments_scalar(segments, block_count, targets);
         return;
     }
     apply_forced_target();
-    HWY_DYNAMIC_DISPATCH(accumulate)(segments, block_count, sums);
+    HWY_DYNAMIC_DISPATCH(accumulate)(segments, block_count, targets);
 }
 
 }  // namespace relume::engine

@@ -32,24 +32,6 @@ void add_scaled_loop(const std::int16_t* HWY_RESTRICT values,
     }
 }
 
-void add_to_both_loop(const float* HWY_RESTRICT difference,
-                      std::size_t count,
-                      float* HWY_RESTRICT first,
-                      float* HWY_RESTRICT second) {
-    const hn::ScalableTag<float> df;
-    const std::size_t lanes = hn::Lanes(df);
-    std::size_t i = 0;
-    for (; i + lanes <= count; i += lanes) {
-        const auto d = hn::LoadU(df, difference + i);
-        hn::StoreU(hn::Add(hn::LoadU(df, first + i), d), df, first + i);
-        hn::StoreU(hn::Add(hn::LoadU(df, second + i), d), df, second + i);
-    }
-    for (; i < count; ++i) {
-        first[i] += difference[i];
-        second[i] += difference[i];
-    }
-}
-
 double squared_norm_loop(const float* HWY_RESTRICT values, std::size_t count) {
     constexpr std::size_t kRun = 1024;
     const hn::CappedTag<float, 4> df;  // one order of additions on every target
@@ -77,20 +59,11 @@ HWY_AFTER_NAMESPACE();
 namespace relume::engine {
 
 HWY_EXPORT(add_scaled_loop);
-HWY_EXPORT(add_to_both_loop);
 HWY_EXPORT(squared_norm_loop);
 
 void add_scaled(std::span<const std::int16_t> values, float weight, std::span<float> sums) {
     apply_forced_target();
     HWY_DYNAMIC_DISPATCH(add_scaled_loop)(values.data(), weight, values.size(), sums.data());
-}
-
-void add_to_both(std::span<const float> difference,
-                 std::span<float> first,
-                 std::span<float> second) {
-    apply_forced_target();
-    HWY_DYNAMIC_DISPATCH(add_to_both_loop)
-    (difference.data(), difference.size(), first.data(), second.data());
 }
 
 double squared_norm(std::span<const float> values) {

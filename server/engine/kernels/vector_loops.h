@@ -10,11 +10,6 @@ namespace relume::engine {
 // sums[i] += weight·values[i].
 void add_scaled(std::span<const std::int16_t> values, float weight, std::span<float> sums);
 
-// first[i] += difference[i]; second[i] += difference[i].
-void add_to_both(std::span<const float> difference,
-                 std::span<float> first,
-                 std::span<float> second);
-
 // Σ values[i]², summed in runs of float precision; only used where three digits will do.
 [[nodiscard]] double squared_norm(std::span<const float> values);
 

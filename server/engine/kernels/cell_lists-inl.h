@@ -1,0 +1,110 @@
+// The cells of a group of segments, sorted by block. Compiled once per instruction set, as
+// Highway's own "-inl" headers are: counting bits is one instruction on most.
+#if defined(RELUME_CELL_LISTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELUME_CELL_LISTS_INL_H
+#undef RELUME_CELL_LISTS_INL_H
+#else
+#define RELUME_CELL_LISTS_INL_H
+#endif
+
+#include "server/engine/kernels/accumulate.h"
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace relume::engine::HWY_NAMESPACE {
+
+struct ListedCell {
+    const std::uint8_t* cell;
+    transport::CellTag tag;
+    std::uint8_t segment;  // in its group
+};
+static_assert(kMaxGroupSegments <= 256);
+
+// Segments are walked once, in the order of memory, each cell asked for a while before it is
+// passed; the blocks' lists then find it in the cache.
+class CellLists {
+  public:
+    // Replaces what the lists hold.
+    void fill(std::span<const WeightedSegment> segments, std::uint32_t block_count) {
+        counts_.fill(0);
+        for (std::size_t s = 0; s < segments.size(); ++s) {
+            walk(segments[s].segment, static_cast<std::uint8_t>(s), block_count);
+        }
+    }
+
+    // In the order of the segments.
+    [[nodiscard]] std::span<const ListedCell> of_block(std::uint32_t block) const {
+        return std::span(cells_[block]).first(counts_[block]);
+    }
+
+  private:
+    static constexpr std::uint32_t kTagsPerWord = 16;
+    static constexpr std::size_t kCacheLine = 64;
+    // The next segment is as a rule the next in memory.
+    static constexpr std::size_t kPrefetchBytes = 1024;
+
+    void walk(const transport::SegmentView& segment,
+              std::uint8_t number,
+              std::uint32_t block_count) {
+        const std::uint8_t* cell = segment.cells;
+        const std::uint8_t* ahead = cell;
+        for (std::uint32_t first = 0; first < block_count; first += kTagsPerWord) {
+            const std::uint32_t count = std::min(kTagsPerWord, block_count - first);
+            std::uint64_t tags = 0;
+            std::memcpy(&tags, segment.tags + first / 2, transport::tag_bytes(count));
+            std::uint64_t present = tags | (tags >> 1U);
+            present = (present | (present >> 2U)) & 0x1111'1111'1111'1111U;
+            for (; present != 0; present &= present - 1) {
+                const auto bit = static_cast<unsigned>(std::countr_zero(present));
+                const auto tag = static_cast<transport::CellTag>((tags >> bit) & 0xFU);
+                const std::uint32_t block = first + bit / 4;
+                cells_[block][counts_[block]++] = {cell, tag, number};
+                cell += size_of(tag, cell);
+                for (; ahead < cell + kPrefetchBytes; ahead += kCacheLine) {
+                    __builtin_prefetch(ahead);
+                }
+            }
+        }
+    }
+
+    // As transport::cell_bytes, for the encodings there are many of.
+    static std::size_t size_of(transport::CellTag tag, const std::uint8_t* cell) {
+        switch (tag) {
+            case transport::CellTag::dense8:
+                return transport::kBlockSize;
+            case transport::CellTag::sparse8:
+                return 1 + 2 * std::size_t{cell[0]};
+            case transport::CellTag::bitmap8:
+                return transport::kBitmapBytes + population(cell);
+            default:
+                return transport::cell_bytes(tag, cell);
+        }
+    }
+    static std::size_t population(const std::uint8_t* bitmap) {
+        int population = 0;
+        for (std::size_t i = 0; i < transport::kBitmapBytes; i += sizeof(std::uint64_t)) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, bitmap + i, sizeof(word));
+            population += std::popcount(word);
+        }
+        return static_cast<std::size_t>(population);
+    }
+
+    // Rows a power of two apart would all begin in the same set of the first-level cache.
+    static constexpr std::size_t kRowCells =
+        kMaxGroupSegments + kCacheLine / sizeof(ListedCell);
+
+    std::array<std::array<ListedCell, kRowCells>, transport::kMaxBlocksPerShard> cells_;
+    std::array<std::uint32_t, transport::kMaxBlocksPerShard> counts_;
+};
+
+}  // namespace relume::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
