@@ -1,38 +1,94 @@
 #include "precompute/bake/block_encoder.h"
 
-namespace relume::bake {
+#include "protocol/transport/quantise.h"
+#include "protocol/transport/receiver_basis.h"
 
-transport::EncodedBlock BlockEncoder::encode(std::size_t segments) const {
-    // A counting sort by column: only what is not zero moves.
-    std::vector<std::uint32_t> begin(segments + 1, 0);
-    for (const auto& row : rows_) {
-        for (const transport::QuantisedValue& value : row) {
-            ++begin[value.column + 1];
+#include <cmath>
+
+namespace relume::bake {
+namespace {
+
+using transport::kBlockSize;
+
+// Columns transposed at once: a cache line of every row.
+constexpr std::size_t kTileColumns = 16;
+using Cell = std::array<float, kBlockSize>;
+using ColumnTile = std::array<Cell, kTileColumns>;
+
+// Receivers without a row are not looked at: they get the mean of the others, which costs the
+// fewest coefficients.
+void transpose(const BlockRows& rows,
+               std::uint32_t channel,
+               std::size_t first,
+               std::size_t count,
+               ColumnTile& tile) {
+    std::array<float, kTileColumns> mean{};
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        if (const float* row = rows.row(slot, channel); row != nullptr) {
+            for (std::size_t i = 0; i < count; ++i) {
+                tile[i][slot] = row[first + i];
+                mean[i] += row[first + i] / static_cast<float>(rows.present_count());
+            }
         }
     }
-    for (std::size_t i = 0; i < segments; ++i) {
-        begin[i + 1] += begin[i];
-    }
-    struct SlotValue {
-        std::uint32_t slot;
-        std::int32_t value;
-    };
-    std::vector<SlotValue> sorted(begin[segments]);
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
-        for (const transport::QuantisedValue& value : rows_[slot]) {
-            sorted[next[value.column]++] = {slot, value.value};
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        for (std::size_t i = 0; rows.row(slot, channel) == nullptr && i < count; ++i) {
+            tile[i][slot] = mean[i];
         }
     }
-    transport::EncodedBlock block(segments);
-    transport::QuantisedCell cell{};
-    for (std::size_t i = 0; i < segments; ++i) {
-        for (std::uint32_t at = begin[i]; at < begin[i + 1]; ++at) {
-            cell[sorted[at].slot] = sorted[at].value;
+}
+
+// No coefficient is larger than the norm of all values.
+bool is_in_dead_zone(const Cell& values, float step) {
+    float energy = 0;
+    for (const float value : values) {
+        energy += value * value;
+    }
+    constexpr float kRounding = 0.999F;
+    return std::sqrt(energy) < kRounding * transport::kDeadZone * step;
+}
+
+// Values of a quantised cell at the slots of `stored`, as column j of channel k.
+void reconstruct(const transport::QuantisedCell& quantised,
+                 float step,
+                 std::size_t place,
+                 StoredRows& stored) {
+    Cell values;
+    for (std::size_t i = 0; i < kBlockSize; ++i) {
+        values[i] = step * static_cast<float>(quantised[i]);
+    }
+    transport::block_receivers_from_coefficients(values);
+    for (std::size_t i = 0; i < stored.slots.size(); ++i) {
+        stored.rows[i][place] = values[stored.slots[i]];
+    }
+}
+
+}  // namespace
+
+transport::EncodedBlock encode_block(const BlockRows& rows,
+                                     std::span<const float> steps,
+                                     StoredRows& stored) {
+    const std::uint32_t channels = rows.channels();
+    stored.rows.assign(stored.slots.size(), std::vector<float>(rows.columns() * channels));
+    transport::EncodedBlock block(steps.size());
+    std::array<ColumnTile, transport::kMaxChannels> tiles;
+    for (std::size_t first = 0; first < rows.columns(); first += kTileColumns) {
+        const std::size_t count = std::min(kTileColumns, rows.columns() - first);
+        for (std::uint32_t k = 0; k < channels; ++k) {
+            transpose(rows, k, first, count, tiles[k]);
         }
-        block.append(cell);
-        for (std::uint32_t at = begin[i]; at < begin[i + 1]; ++at) {
-            cell[sorted[at].slot] = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::uint32_t k = 0; k < channels; ++k) {
+                Cell& values = tiles[k][i];
+                const float step = steps[(first + i) * channels + k];
+                transport::QuantisedCell quantised{};
+                if (!is_in_dead_zone(values, step)) {
+                    transport::block_coefficients_from_receivers(values);
+                    transport::quantise_cell(values, step, quantised);
+                    reconstruct(quantised, step, k * rows.columns() + first + i, stored);
+                }
+                block.append(quantised);
+            }
         }
     }
     return block;

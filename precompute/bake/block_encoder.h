@@ -1,27 +1,25 @@
-// The 256 receivers of a block, gathered row by row and encoded column by column.
+// A block's rows to its cells: transposed, transformed over the block, quantised, encoded.
 #pragma once
 
-#include "protocol/transport/quantise.h"
+#include "precompute/bake/block_rows.h"
 #include "protocol/transport/shard_writer.h"
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace relume::bake {
 
-// Rows may be set by several threads at once, each slot by one.
-class BlockEncoder {
-  public:
-    // Non-zero values of one receiver, in any order.
-    [[nodiscard]] std::vector<transport::QuantisedValue>& row(std::uint32_t slot) {
-        return rows_[slot];
-    }
-    // Encodes `segments` = N·K cells.
-    [[nodiscard]] transport::EncodedBlock encode(std::size_t segments) const;
-
-  private:
-    std::array<std::vector<transport::QuantisedValue>, transport::kBlockSize> rows_;
+// What some receivers' rows have become by being stored, to measure the error by.
+struct StoredRows {
+    std::vector<std::uint32_t> slots;
+    std::vector<std::vector<float>> rows;  // by slot, [K][N]
 };
+
+// `steps` is [N][K]. Fills the rows of `stored` for the slots it names.
+[[nodiscard]] transport::EncodedBlock encode_block(const BlockRows& rows,
+                                                   std::span<const float> steps,
+                                                   StoredRows& stored);
 
 }  // namespace relume::bake

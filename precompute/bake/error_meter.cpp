@@ -13,6 +13,14 @@ double relative(double error, double value) {
     return value > 0 ? std::sqrt(error / value) : 0.0;
 }
 
+double inner_product(std::span<const float> row, std::span<const float> light) {
+    double sum = 0;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+        sum += double{row[j]} * double{light[j]};
+    }
+    return sum;
+}
+
 }  // namespace
 
 void ErrorSums::add(const ErrorSums& other) {
@@ -32,33 +40,29 @@ ErrorMeter::ErrorMeter(std::uint32_t face_resolution, const Quantisation& quanti
     }
 }
 
-ErrorMeter::PixelLight ErrorMeter::measure(
-    const CoefficientRow& exact,
-    const Imath::V3f& tint,
-    std::span<const transport::QuantisedValue> stored) const {
-    PixelLight light;
-    const transport::ColourModel& colour = quantisation_.colour;
+void ErrorMeter::measure_exact(const CoefficientRow& exact, PixelLight& light) const {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-        const float* radiance = lights_[i].data();
         for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t j = 0; j < exact.rgb[c].size(); ++j) {
-                light.exact[i][c] += double{exact.rgb[c][j]} * radiance[j];
-            }
+            light.exact[i][c] = inner_product(exact.rgb[c], lights_[i]);
         }
-        std::array<double, transport::kMaxChannels> channel{};
-        for (const transport::QuantisedValue& value : stored) {
-            channel[value.column % colour.channels] +=
-                double{quantisation_.steps[value.column]} * value.value *
-                radiance[value.column / colour.channels];
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t k = 0; k < colour.channels; ++k) {
+    }
+}
+
+void ErrorMeter::measure_stored(std::span<const float> stored,
+                                const Imath::V3f& tint,
+                                PixelLight& light) const {
+    const transport::ColourModel& colour = quantisation_.colour;
+    const std::size_t columns = stored.size() / colour.channels;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        for (std::size_t k = 0; k < colour.channels; ++k) {
+            const double value =
+                inner_product(stored.subspan(k * columns, columns), lights_[i]);
+            for (std::size_t c = 0; c < 3; ++c) {
                 light.stored[i][c] +=
-                    double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * channel[k];
+                    double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * value;
             }
         }
     }
-    return light;
 }
 
 BlockErrors ErrorMeter::errors(const std::array<PixelLight, 4>& pixels) {

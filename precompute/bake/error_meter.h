@@ -5,7 +5,6 @@
 
 #include "precompute/bake/colour_split.h"
 #include "precompute/bake/pilot.h"
-#include "protocol/transport/quantise.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -39,9 +38,11 @@ class ErrorMeter {
         std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> exact{};
         std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> stored{};
     };
-    [[nodiscard]] PixelLight measure(const CoefficientRow& exact,
-                                     const Imath::V3f& tint,
-                                     std::span<const transport::QuantisedValue> stored) const;
+    void measure_exact(const CoefficientRow& exact, PixelLight& light) const;
+    // `stored` is the pixel's row as stored, [K][N].
+    void measure_stored(std::span<const float> stored,
+                        const Imath::V3f& tint,
+                        PixelLight& light) const;
 
     // Of the four measured pixels of a tile: upper left, upper right, lower left, lower right.
     [[nodiscard]] static BlockErrors errors(const std::array<PixelLight, 4>& pixels);

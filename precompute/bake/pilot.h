@@ -1,12 +1,5 @@
-// A look at a few pixels before the bake: how many channels the transport needs, and how finely
-// each column is to be quantised.
-//
-// Steps grow with the band, step(band) = c·2^(β·band), as the coefficients of natural light
-// fall with it: reverse water-filling spreads the expected error of the image evenly. c is set
-// so that under natural light the expected error equals that of [Ng03], which spends `bits`
-// bits on the range of each column. Natural light hardly weighs the fine bands, and a bare sun
-// lives in them: a largest step keeps the error of a lone lit texel within 4/3 of [Ng03]'s.
-// Unlike there, one huge value coarsens nothing: it is stored in a wider cell.
+// A look at a few tiles before the bake: how many channels the transport needs, and how finely
+// each column is to be quantised (step_chooser.h).
 #pragma once
 
 #include "precompute/bake/row_baker.h"

@@ -3,11 +3,14 @@
 #include "precompute/bake/error.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/haar.h"
+#include "protocol/transport/receiver_basis.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -53,6 +56,18 @@ void add_shard(const transport::Transport& transport,
     }
 }
 
+// From each block's basis to its receivers.
+void to_receivers(std::vector<double>& sums) {
+    std::array<float, kBlockSize> block;
+    for (std::size_t first = 0; first < sums.size(); first += kBlockSize) {
+        const auto values = std::span(sums).subspan(first, kBlockSize);
+        std::transform(values.begin(), values.end(), block.begin(),
+                       [](double value) { return static_cast<float>(value); });
+        transport::block_receivers_from_coefficients(block);
+        std::copy(block.begin(), block.end(), values.begin());
+    }
+}
+
 }  // namespace
 
 RelitImage relight(const transport::Transport& transport, const CubemapLight& light) {
@@ -69,6 +84,7 @@ RelitImage relight(const transport::Transport& transport, const CubemapLight& li
     tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {
         add_shard(transport, transport.shards()[i], coefficients, pixels);
     });
+    to_receivers(pixels);
     RelitImage image{.width = manifest.image.width, .height = manifest.image.height, .rgb = {}};
     for (std::size_t c = 0; c < 3; ++c) {
         image.rgb[c].resize(std::size_t{image.width} * image.height);

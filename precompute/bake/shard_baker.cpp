@@ -18,9 +18,11 @@ struct ShardBaker::Scratch {
 
 struct ShardBaker::Block {
     std::uint32_t number = 0;
-    BlockEncoder encoder;
+    BlockRows& rows;
     std::span<float> tint;  // [3][256]
-    std::array<ErrorMeter::PixelLight, 4> measured{};
+    // Of the slots in `stored`.
+    std::vector<ErrorMeter::PixelLight> measured;
+    StoredRows stored;
 };
 
 ShardBaker::ShardBaker(const RowBaker& rows,
@@ -33,16 +35,7 @@ ShardBaker::ShardBaker(const RowBaker& rows,
       pool_(window, parameters.pool_radius),
       image_(image),
       quantisation_(quantisation),
-      meter_(parameters.face_resolution, quantisation) {
-    const std::uint32_t channels = quantisation.colour.channels;
-    const std::size_t count = quantisation.steps.size() / channels;
-    inverse_steps_.assign(channels, std::vector<float>(count));
-    for (std::uint32_t k = 0; k < channels; ++k) {
-        for (std::size_t j = 0; j < count; ++j) {
-            inverse_steps_[k][j] = 1.0F / quantisation.steps[j * channels + k];
-        }
-    }
-}
+      meter_(parameters.face_resolution, quantisation) {}
 
 BakedShard ShardBaker::bake(std::uint32_t first_block,
                             std::uint32_t block_count,
@@ -51,14 +44,18 @@ BakedShard ShardBaker::bake(std::uint32_t first_block,
     shard.blocks.assign(block_count, transport::EncodedBlock(0));
     constexpr std::size_t kTintValues =
         std::size_t{transport::kColours} * transport::kBlockSize;
-    shard.notes.tint.assign(block_count * kTintValues, 1.0F);
+    // Receivers without a surface stay black, whatever the block's coefficients say of them.
+    shard.notes.tint.assign(block_count * kTintValues, 0.0F);
     shard.notes.errors.resize(block_count);
     std::atomic<std::uint64_t> rays = 0;
+    const std::uint32_t channels = quantisation_.colour.channels;
+    tbb::enumerable_thread_specific<BlockRows> rows(quantisation_.steps.size() / channels,
+                                                    channels);
     tbb::parallel_for(std::uint32_t{0}, block_count, [&](std::uint32_t i) {
         std::uint64_t cast = 0;
         shard.blocks[i] = bake_block(
             first_block + i, std::span(shard.notes.tint).subspan(i * kTintValues, kTintValues),
-            shard.notes.errors[i], cast, tick);
+            rows.local(), shard.notes.errors[i], cast, tick);
         rays += cast;
     });
     shard.rays = rays;
@@ -67,13 +64,15 @@ BakedShard ShardBaker::bake(std::uint32_t first_block,
 
 transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
                                                std::span<float> tint,
+                                               BlockRows& rows,
                                                BlockErrors& errors,
                                                std::uint64_t& rays,
                                                const Tick& tick) const {
     static thread_local Scratch scratch;
     const std::uint32_t left = number % image_.tiles_x() * transport::kTileSide;
     const std::uint32_t top = number / image_.tiles_x() * transport::kTileSide;
-    Block block{.number = number, .encoder = {}, .tint = tint};
+    rows.clear();
+    Block block{.number = number, .rows = rows, .tint = tint, .measured = {}, .stored = {}};
     const std::uint32_t bottom = std::min(top + transport::kTileSide, image_.height);
     const std::uint32_t right = std::min(left + transport::kTileSide, image_.width);
     for (std::uint32_t y = top; y < bottom; ++y) {
@@ -87,8 +86,9 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
             throw BakeInterrupted("stopped before all shards were finished");
         }
     }
-    errors = ErrorMeter::errors(block.measured);
-    return block.encoder.encode(quantisation_.steps.size());
+    transport::EncodedBlock encoded = encode_block(rows, quantisation_.steps, block.stored);
+    errors = measure(block);
+    return encoded;
 }
 
 void ShardBaker::bake_pixel(std::uint32_t x,
@@ -107,16 +107,30 @@ void ShardBaker::bake_pixel(std::uint32_t x,
         block.tint[c * transport::kBlockSize + slot] =
             scratch.channels.tint[static_cast<int>(c)];
     }
-    auto& stored = block.encoder.row(slot);
-    const std::uint64_t receiver = std::uint64_t{block.number} * transport::kBlockSize + slot;
     for (std::uint32_t k = 0; k < colour.channels; ++k) {
-        transport::quantise_row(scratch.channels.channel[k], inverse_steps_[k], receiver, k,
-                                colour.channels, stored);
+        block.rows.set(slot, k, scratch.channels.channel[k]);
     }
     if (is_measured_pixel(x, y)) {
-        const std::size_t corner = (x % 2 == 0 ? 1U : 0U) + (y % 2 == 0 ? 2U : 0U);
-        block.measured[corner] = meter_.measure(scratch.row, scratch.channels.tint, stored);
+        block.stored.slots.push_back(slot);
+        meter_.measure_exact(scratch.row, block.measured.emplace_back());
     }
+}
+
+BlockErrors ShardBaker::measure(Block& block) const {
+    std::array<ErrorMeter::PixelLight, 4> corners{};
+    for (std::size_t i = 0; i < block.measured.size(); ++i) {
+        const std::uint32_t slot = block.stored.slots[i];
+        Imath::V3f tint;
+        for (std::size_t c = 0; c < transport::kColours; ++c) {
+            tint[static_cast<int>(c)] = block.tint[c * transport::kBlockSize + slot];
+        }
+        meter_.measure_stored(block.stored.rows[i], tint, block.measured[i]);
+        // Measured pixels have odd coordinates on their left and upper sides.
+        const std::size_t corner =
+            (slot % 2 == 0 ? 1U : 0U) + (slot / transport::kTileSide % 2 == 0 ? 2U : 0U);
+        corners[corner] = block.measured[i];
+    }
+    return ErrorMeter::errors(corners);
 }
 
 }  // namespace relume::bake

@@ -1,6 +1,7 @@
 // All blocks of one shard: rows, channels, integers, cells.
 #pragma once
 
+#include "precompute/bake/block_rows.h"
 #include "precompute/bake/error_meter.h"
 #include "precompute/bake/pilot.h"
 #include "precompute/bake/row_baker.h"
@@ -40,9 +41,11 @@ class ShardBaker {
     struct Scratch;
     struct Block;
 
+    [[nodiscard]] BlockErrors measure(Block& block) const;
     void bake_pixel(std::uint32_t x, std::uint32_t y, Block& block, Scratch& scratch) const;
     [[nodiscard]] transport::EncodedBlock bake_block(std::uint32_t number,
                                                      std::span<float> tint,
+                                                     BlockRows& rows,
                                                      BlockErrors& errors,
                                                      std::uint64_t& rays,
                                                      const Tick& tick) const;
@@ -53,7 +56,6 @@ class ShardBaker {
     transport::TileGrid image_;
     const Quantisation& quantisation_;
     ErrorMeter meter_;
-    std::vector<std::vector<float>> inverse_steps_;  // [K][N]
 };
 
 }  // namespace relume::bake

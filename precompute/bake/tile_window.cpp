@@ -76,6 +76,11 @@ std::uint64_t TileWindow::move_to(std::uint32_t first, std::uint32_t last) {
     return rays;
 }
 
+std::size_t TileWindow::surface_count(std::uint32_t x, std::uint32_t y) const {
+    return view_pixel(caster_, camera_, x, y, parameters_.pixel_samples, parameters_.seed)
+        .surfaces.size();
+}
+
 TracedPixel TileWindow::trace(std::uint32_t x, std::uint32_t y) const {
     TracedPixel pixel;
     pixel.view =

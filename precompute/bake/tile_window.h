@@ -46,6 +46,8 @@ class TileWindow {
         return top_ + static_cast<std::uint32_t>(rows_.size());
     }
 
+    // Surfaces that are seen in the pixel.
+    [[nodiscard]] std::size_t surface_count(std::uint32_t x, std::uint32_t y) const;
     // One pixel, traced by itself.
     [[nodiscard]] TracedPixel trace(std::uint32_t x, std::uint32_t y) const;
 

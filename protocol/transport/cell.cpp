@@ -87,16 +87,69 @@ CellTag append_cell8(const QuantisedCell& values,
     return CellTag::dense8;
 }
 
+std::size_t cell16_bytes(std::size_t nonzeros) {
+    return std::min(kBitmapBytes + sizeof(std::int16_t) * nonzeros,
+                    sizeof(std::int16_t) * std::size_t{kBlockSize});
+}
+
 CellTag append_cell16(const QuantisedCell& values,
                       std::size_t nonzeros,
                       std::vector<std::uint8_t>& bytes) {
-    if (kBitmapBytes + 2 * nonzeros < 2 * std::size_t{kBlockSize}) {
+    if (cell16_bytes(nonzeros) < 2 * std::size_t{kBlockSize}) {
         append_bitmap(values, bytes);
         append_nonzero<std::int16_t>(values, bytes);
         return CellTag::bitmap16;
     }
     append_all<std::int16_t>(values, bytes);
     return CellTag::dense16;
+}
+
+// q = low + 256·high with low in 8 bits.
+struct SplitCell {
+    QuantisedCell low;
+    QuantisedCell high;
+    std::size_t low_nonzeros = 0;
+    std::size_t high_nonzeros = 0;
+};
+
+SplitCell split(const QuantisedCell& values) {
+    SplitCell cell;
+    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+        const std::int32_t low = static_cast<std::int8_t>(values[slot] & 0xFF);
+        cell.low[slot] = low;
+        cell.high[slot] = (values[slot] - low) / kHighPart;
+        cell.low_nonzeros += low != 0 ? 1U : 0U;
+        cell.high_nonzeros += cell.high[slot] != 0 ? 1U : 0U;
+    }
+    return cell;
+}
+
+// Values of 16 bits: split where that takes fewer bytes.
+CellTag append_wide_cell(const QuantisedCell& values,
+                         std::size_t nonzeros,
+                         std::vector<std::uint8_t>& bytes) {
+    const SplitCell parts = split(values);
+    const bool high_fits = std::all_of(parts.high.begin(), parts.high.end(), [](auto high) {
+        return high <= std::numeric_limits<std::int8_t>::max();
+    });
+    const std::size_t high_bytes = 1 + 2 * parts.high_nonzeros;
+    const std::size_t low_bytes =
+        std::min({1 + 2 * parts.low_nonzeros, kBitmapBytes + parts.low_nonzeros,
+                  std::size_t{kBlockSize}});
+    if (!high_fits || parts.low_nonzeros == 0 ||
+        parts.high_nonzeros > std::numeric_limits<std::uint8_t>::max() ||
+        high_bytes + low_bytes >= cell16_bytes(nonzeros)) {
+        return append_cell16(values, nonzeros, bytes);
+    }
+    append_sparse8(parts.high, parts.high_nonzeros, bytes);
+    const CellTag tag = append_cell8(parts.low, parts.low_nonzeros, bytes);
+    return static_cast<CellTag>(static_cast<std::uint8_t>(tag) +
+                                static_cast<std::uint8_t>(CellTag::split_dense8) -
+                                static_cast<std::uint8_t>(CellTag::dense8));
+}
+
+std::size_t sparse8_bytes(const std::uint8_t* cell) {
+    return 1 + 2 * std::size_t{cell[0]};
 }
 
 std::uint32_t bitmap_population(const std::uint8_t* bitmap) {
@@ -127,6 +180,24 @@ const std::uint8_t* decode_dense(const std::uint8_t* cell, DecodedCell& values) 
         values[slot] = static_cast<float>(read_value<T>(cell + slot * sizeof(T)));
     }
     return cell + kBlockSize * sizeof(T);
+}
+
+const std::uint8_t* decode_sparse8(const std::uint8_t* cell, DecodedCell& values) {
+    const std::size_t count = cell[0];
+    values.fill(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        values[cell[1 + i]] = static_cast<float>(static_cast<std::int8_t>(cell[1 + count + i]));
+    }
+    return cell + sparse8_bytes(cell);
+}
+
+const std::uint8_t* decode_split(CellTag tag, const std::uint8_t* cell, DecodedCell& values) {
+    DecodedCell high;
+    const std::uint8_t* end = decode_cell(low_tag(tag), decode_sparse8(cell, high), values);
+    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+        values[slot] += kHighPart * high[slot];
+    }
+    return end;
 }
 
 void check_sparse_slots(const std::uint8_t* cell, std::size_t count) {
@@ -170,7 +241,7 @@ CellTag append_cell(const QuantisedCell& values, std::vector<std::uint8_t>& byte
         return append_cell8(values, nonzeros, bytes);
     }
     if (fits(std::int16_t{})) {
-        return append_cell16(values, nonzeros, bytes);
+        return append_wide_cell(values, nonzeros, bytes);
     }
     append_all<float>(values, bytes);
     return CellTag::dense32f;
@@ -182,6 +253,12 @@ std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t>
             fmt::format("unknown cell tag {}, expected 0 to {}", tag, kCellTagCount - 1));
     }
     const auto cell_tag = static_cast<CellTag>(tag);
+    if (is_split(cell_tag)) {
+        const std::size_t high =
+            validated_cell_bytes(static_cast<std::uint8_t>(CellTag::sparse8), bytes);
+        return high + validated_cell_bytes(static_cast<std::uint8_t>(low_tag(cell_tag)),
+                                           bytes.subspan(high));
+    }
     const auto require = [&](std::size_t needed) {
         if (bytes.size() < needed) {
             throw TransportError(fmt::format("{} cell needs {} bytes, {} are left",
@@ -218,13 +295,17 @@ std::size_t cell_bytes(CellTag tag, const std::uint8_t* cell) {
         case CellTag::bitmap8:
             return kBitmapBytes + bitmap_population(cell);
         case CellTag::sparse8:
-            return 1 + 2 * std::size_t{cell[0]};
+            return sparse8_bytes(cell);
         case CellTag::dense16:
             return kBlockSize * sizeof(std::int16_t);
         case CellTag::bitmap16:
             return kBitmapBytes + sizeof(std::int16_t) * bitmap_population(cell);
         case CellTag::dense32f:
             return kBlockSize * sizeof(float);
+        case CellTag::split_dense8:
+        case CellTag::split_bitmap8:
+        case CellTag::split_sparse8:
+            return sparse8_bytes(cell) + cell_bytes(low_tag(tag), cell + sparse8_bytes(cell));
     }
     return 0;
 }
@@ -238,21 +319,18 @@ const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCe
             return decode_dense<std::int8_t>(cell, values);
         case CellTag::bitmap8:
             return decode_bitmap<std::int8_t>(cell, values);
-        case CellTag::sparse8: {
-            const std::size_t count = cell[0];
-            values.fill(0);
-            for (std::size_t i = 0; i < count; ++i) {
-                values[cell[1 + i]] =
-                    static_cast<float>(static_cast<std::int8_t>(cell[1 + count + i]));
-            }
-            return cell + 1 + 2 * count;
-        }
+        case CellTag::sparse8:
+            return decode_sparse8(cell, values);
         case CellTag::dense16:
             return decode_dense<std::int16_t>(cell, values);
         case CellTag::bitmap16:
             return decode_bitmap<std::int16_t>(cell, values);
         case CellTag::dense32f:
             return decode_dense<float>(cell, values);
+        case CellTag::split_dense8:
+        case CellTag::split_bitmap8:
+        case CellTag::split_sparse8:
+            return decode_split(tag, cell, values);
     }
     return cell;
 }

@@ -2,6 +2,7 @@
 
 #include "protocol/transport/error.h"
 #include "protocol/transport/hash.h"
+#include "protocol/transport/receiver_basis.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -97,6 +98,9 @@ class ColumnSummer {
                 const CellTag tag =
                     segments[k].empty() ? CellTag::empty : segments[k].tag(block);
                 cells[k] = decode_cell(tag, cells[k], values[k]);
+                if (tag != CellTag::empty) {
+                    block_receivers_from_coefficients(values[k]);
+                }
                 occupied = occupied || tag != CellTag::empty;
             }
             if (occupied) {

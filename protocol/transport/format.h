@@ -25,7 +25,8 @@ inline constexpr std::size_t kShardAlignment = 64;
 // Zeroes after the data, so that vector loads may run past the last cell.
 inline constexpr std::size_t kShardTailBytes = 64;
 
-// How a cell (256 receivers of one column) is stored.
+// How a cell (256 values of one column) is stored. In the last three, values beyond 8 bits are
+// split, q = low + 256·high: first the few that have a high part, then all low parts.
 enum class CellTag : std::uint8_t {
     empty = 0,
     dense8 = 1,
@@ -34,10 +35,25 @@ enum class CellTag : std::uint8_t {
     dense16 = 4,
     bitmap16 = 5,
     dense32f = 6,
+    split_dense8 = 7,
+    split_bitmap8 = 8,
+    split_sparse8 = 9,
 };
-inline constexpr std::size_t kCellTagCount = 7;
+inline constexpr std::size_t kCellTagCount = 10;
 inline constexpr std::array<const char*, kCellTagCount> kCellTagNames{
-    "empty", "dense8", "bitmap8", "sparse8", "dense16", "bitmap16", "dense32f"};
+    "empty",    "dense8",   "bitmap8",      "sparse8",       "dense16",
+    "bitmap16", "dense32f", "split_dense8", "split_bitmap8", "split_sparse8"};
+inline constexpr std::int32_t kHighPart = 256;
+
+[[nodiscard]] constexpr bool is_split(CellTag tag) {
+    return tag >= CellTag::split_dense8;
+}
+// How the low parts of a split cell are stored.
+[[nodiscard]] constexpr CellTag low_tag(CellTag tag) {
+    return static_cast<CellTag>(static_cast<std::uint8_t>(tag) -
+                                static_cast<std::uint8_t>(CellTag::split_dense8) +
+                                static_cast<std::uint8_t>(CellTag::dense8));
+}
 inline constexpr std::size_t kBitmapBytes = kBlockSize / 8;
 
 // Where a pixel lives.

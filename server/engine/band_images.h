@@ -11,9 +11,9 @@
 
 namespace relume::engine {
 
-// Sums are [blocks][3][256], before tint. Work is spread over shards; a block's sums are made
-// by one thread in one order, so the result does not depend on the number of threads. Not
-// thread-safe.
+// Sums are [blocks][3][256], in the basis of the blocks, before tint. Work is spread over
+// shards; a block's sums are made by one thread in one order, so the result does not depend on
+// the number of threads. Not thread-safe.
 class BandImages {
   public:
     explicit BandImages(const Scene& scene);

@@ -1,9 +1,12 @@
 #include "server/engine/session.h"
 
+#include "protocol/transport/receiver_basis.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <stdexcept>
 
@@ -179,22 +182,36 @@ void Session::write_image(std::span<float> rgb) const {
         throw std::invalid_argument(
             fmt::format("image buffer has {} values, expected {}", rgb.size(), expected));
     }
-    const std::span<const float> sums = images_.total();
-    const std::span<const float> tint = scene_->transport().tint();
-    tbb::parallel_for(std::uint32_t{0}, image.tiles_y(), [&](std::uint32_t tile_y) {
-        const std::uint32_t last_row = std::min(image.height, (tile_y + 1) * kTileSide);
-        for (std::uint32_t y = tile_y * kTileSide; y < last_row; ++y) {
-            float* out = &rgb[std::size_t{kColours} * image.width * y];
-            for (std::uint32_t x = 0; x < image.width; ++x) {
-                const auto [block, slot] = image.receiver_from_pixel(x, y);
-                const std::size_t first = std::size_t{block} * kColours * kBlockSize + slot;
-                for (std::size_t c = 0; c < kColours; ++c) {
-                    const std::size_t i = first + c * kBlockSize;
-                    *out++ = sums[i] * tint[i];
-                }
+    tbb::parallel_for(std::uint32_t{0}, image.block_count(),
+                      [&](std::uint32_t block) { write_block(block, rgb); });
+}
+
+void Session::write_block(std::uint32_t block, std::span<float> rgb) const {
+    constexpr std::size_t kSumsPerBlock = std::size_t{kColours} * kBlockSize;
+    const std::size_t first = block * kSumsPerBlock;
+    std::array<float, kSumsPerBlock> values;
+    std::copy_n(images_.total().begin() + static_cast<std::ptrdiff_t>(first), values.size(),
+                values.begin());
+    for (std::size_t c = 0; c < kColours; ++c) {
+        transport::block_receivers_from_coefficients(
+            std::span<float, kBlockSize>(&values[c * kBlockSize], kBlockSize));
+    }
+    const std::span<const float> tint =
+        scene_->transport().tint().subspan(first, kSumsPerBlock);
+    const transport::TileGrid& image = scene_->image();
+    const std::uint32_t left = block % image.tiles_x() * kTileSide;
+    const std::uint32_t top = block / image.tiles_x() * kTileSide;
+    const std::uint32_t columns = std::min(kTileSide, image.width - left);
+    const std::uint32_t rows = std::min(kTileSide, image.height - top);
+    for (std::uint32_t y = 0; y < rows; ++y) {
+        float* out = &rgb[kColours * (std::size_t{top + y} * image.width + left)];
+        for (std::uint32_t x = 0; x < columns; ++x) {
+            for (std::size_t c = 0; c < kColours; ++c) {
+                const std::size_t i = c * kBlockSize + y * kTileSide + x;
+                *out++ = values[i] * tint[i];
             }
         }
-    });
+    }
 }
 
 }  // namespace relume::engine

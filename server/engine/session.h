@@ -58,13 +58,14 @@ class Session {
     [[nodiscard]] std::span<const float> approximation() const {
         return lighting_.approximation();
     }
-    // Sums before tint: [blocks][3][256].
+    // Sums before tint, in the basis of the blocks (receiver_basis.h): [blocks][3][256].
     [[nodiscard]] std::span<const float> sums() const { return images_.total(); }
     // The relit image, tint applied: interleaved RGB, row by row from the top, 3·width·height
     // floats, linear radiance, premultiplied by coverage.
     void write_image(std::span<float> rgb) const;
 
   private:
+    void write_block(std::uint32_t block, std::span<float> rgb) const;
     void begin_new_lighting(StepReport& report);
     void advance_incrementally(const wire::Budget& budget, StepReport& report);
     void advance_full_product(const wire::Budget& budget, StepReport& report);

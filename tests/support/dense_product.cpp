@@ -2,6 +2,7 @@
 
 #include "protocol/basis/haar.h"
 #include "protocol/transport/cell.h"
+#include "tests/support/tiny_transport.h"
 
 #include <cstddef>
 #include <stdexcept>
@@ -44,6 +45,15 @@ LinearImage dense_product(const transport::Transport& transport,
                 }
             }
         }
+    }
+
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<double> sums;
+        for (const Imath::V3d& receiver : receivers)
+            sums.push_back(receiver[static_cast<int>(c)]);
+        receivers_from_sums(sums);
+        for (std::size_t p = 0; p < receivers.size(); ++p)
+            receivers[p][static_cast<int>(c)] = sums[p];
     }
 
     const std::uint32_t width = manifest.image.width;

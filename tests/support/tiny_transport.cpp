@@ -74,19 +74,6 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
     return tables;
 }
 
-// Slots outside the image hold nothing.
-void clear_outside(const transport::TileGrid& image,
-                   std::uint32_t block,
-                   transport::QuantisedCell& cell) {
-    const std::uint32_t x0 = block % image.tiles_x() * transport::kTileSide;
-    const std::uint32_t y0 = block / image.tiles_x() * transport::kTileSide;
-    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
-        const bool inside = x0 + slot % transport::kTileSide < image.width &&
-                            y0 + slot / transport::kTileSide < image.height;
-        cell[slot] = inside ? cell[slot] : 0;
-    }
-}
-
 }  // namespace
 
 void write_tiny_transport(const std::filesystem::path& directory,
@@ -102,9 +89,7 @@ void write_tiny_transport(const std::filesystem::path& directory,
         for (std::uint32_t i = 0; i < plan.blocks_in(shard); ++i) {
             blocks.emplace_back(segments);
             for (std::size_t segment = 0; segment < segments; ++segment) {
-                auto cell = random_cell(random, options.density);
-                clear_outside(manifest.image, plan.first_block(shard) + i, cell);
-                blocks.back().append(cell);
+                blocks.back().append(random_cell(random, options.density));
             }
         }
         writer.write_shard(shard, blocks);
@@ -145,6 +130,35 @@ std::vector<double> dense_product(const transport::Transport& transport,
         }
     }
     return sums;
+}
+
+void receivers_from_sums(std::vector<double>& sums) {
+    constexpr std::size_t kSide = transport::kTileSide;
+    for (std::size_t first = 0; first < sums.size(); first += kBlockSize) {
+        const std::span<double> block = std::span(sums).subspan(first, kBlockSize);
+        const std::vector<double> coefficients(block.begin(), block.end());
+        for (std::size_t y = 0; y < kSide; ++y) {
+            for (std::size_t x = 0; x < kSide; ++x) {
+                double value = coefficients[0] / kSide;
+                // Of every level the three wavelets whose support holds the receiver.
+                for (std::size_t side = 1; side < kSide; side *= 2) {
+                    const std::size_t support = kSide / side;
+                    const std::size_t row = y / support;
+                    const std::size_t column = x / support;
+                    const double along_columns = x % support < support / 2 ? 1 : -1;
+                    const double along_rows = y % support < support / 2 ? 1 : -1;
+                    const auto at = [&](std::size_t r, std::size_t c) {
+                        return coefficients[r * kSide + c];
+                    };
+                    value += (along_columns * at(row, column + side) +
+                              along_rows * at(row + side, column) +
+                              along_columns * along_rows * at(row + side, column + side)) /
+                             static_cast<double>(support);
+                }
+                block[y * kSide + x] = value;
+            }
+        }
+    }
 }
 
 double relative_l2(std::span<const float> a, std::span<const double> b) {

@@ -30,6 +30,9 @@ void write_tiny_transport(const std::filesystem::path& directory,
 [[nodiscard]] std::vector<double> dense_product(const transport::Transport& transport,
                                                 std::span<const float> lighting);
 
+// From each block's Haar coefficients to its receivers, by the definition of the basis.
+void receivers_from_sums(std::vector<double>& sums);
+
 // ‖a − b‖ / ‖b‖.
 [[nodiscard]] double relative_l2(std::span<const float> a, std::span<const double> b);
 

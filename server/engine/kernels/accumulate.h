@@ -49,7 +49,7 @@ inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
 // - of each group of segments, a block's 8-bit cells (dense8, bitmap8), then its 16-bit cells,
 //   then its float cells, each in the order of the segments, are added up from zero, and the
 //   result is added to the targets; after the last group, the same goes for all its sparse
-//   cells;
+//   values, those of a split cell's high part, with 256 times the weight, before its low part;
 // - every product is added without rounding in between (fused multiply-add).
 using AccumulateSegments = void(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,

@@ -14,8 +14,9 @@ using transport::kColours;
 
 enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, sparse };
 
+// Of the low part, if the cell is split.
 CellKind kind_of(CellTag tag) {
-    switch (tag) {
+    switch (transport::is_split(tag) ? transport::low_tag(tag) : tag) {
         case CellTag::empty:
             return CellKind::empty;
         case CellTag::dense8:
@@ -28,12 +29,25 @@ CellKind kind_of(CellTag tag) {
             return CellKind::floats;
         case CellTag::sparse8:
             return CellKind::sparse;
+        default:
+            return CellKind::empty;
     }
-    return CellKind::empty;
 }
 
 // Sums of one block, [3][256].
 using BlockSums = std::array<float, kColours * kBlockSize>;
+
+void add_values(const DecodedCell& values,
+                const ColourWeights& weights,
+                float scale,
+                BlockSums& sums) {
+    for (std::size_t c = 0; c < kColours; ++c) {
+        for (std::size_t i = 0; i < kBlockSize; ++i) {
+            float& sum = sums[c * kBlockSize + i];
+            sum = std::fma(scale * weights[c], values[i], sum);
+        }
+    }
+}
 
 // Adds the block's cells of one kind up, in the order of the segments; whether there are any.
 // `cells` are those of this block.
@@ -44,18 +58,22 @@ bool add_cells(std::span<const WeightedSegment> segments,
                BlockSums& sums) {
     bool any = false;
     for (std::size_t s = 0; s < segments.size(); ++s) {
-        const CellTag tag = segments[s].segment.tag(block);
-        if (kind_of(tag) != kind) {
-            continue;
-        }
-        any = true;
+        CellTag tag = segments[s].segment.tag(block);
+        const std::uint8_t* cell = cells[s];
         DecodedCell values;
-        transport::decode_cell(tag, cells[s], values);
-        for (std::size_t c = 0; c < kColours; ++c) {
-            for (std::size_t i = 0; i < kBlockSize; ++i) {
-                float& sum = sums[c * kBlockSize + i];
-                sum = std::fma(segments[s].weights[c], values[i], sum);
+        if (transport::is_split(tag)) {
+            const std::uint8_t* low = transport::decode_cell(CellTag::sparse8, cell, values);
+            if (kind == CellKind::sparse) {
+                add_values(values, segments[s].weights, transport::kHighPart, sums);
+                any = true;
             }
+            tag = transport::low_tag(tag);
+            cell = low;
+        }
+        if (kind_of(tag) == kind && kind != CellKind::empty) {
+            transport::decode_cell(tag, cell, values);
+            add_values(values, segments[s].weights, 1, sums);
+            any = true;
         }
     }
     return any;

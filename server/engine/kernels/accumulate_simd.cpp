@@ -106,19 +106,25 @@ BitmapExpansion best_expansion() {
 }
 #endif
 
-// Values of the cells of one block, each with its weights.
+// Values that are summed together, each run with its weights.
 template <typename Value>
 struct CellValues {
     std::array<const Value*, kMaxGroupSegments> values;
     std::array<const float*, kMaxGroupSegments> weights;
     std::size_t count = 0;
 
-    void add(const Value* cell, const ColourWeights& cell_weights) {
-        values[count] = cell;
-        weights[count] = cell_weights.data();
-        ++count;
+    // Nothing is added but a pointer that the next addition overwrites, if not `wanted`.
+    void add(const Value* run, const ColourWeights& run_weights, bool wanted = true) {
+        values[count] = run;
+        weights[count] = run_weights.data();
+        count += wanted ? 1 : 0;
     }
 };
+
+template <typename D>
+HWY_INLINE void add_one(D df, hn::Vec<D> sum, float* HWY_RESTRICT target) {
+    hn::StoreU(hn::Add(hn::LoadU(df, target), sum), df, target);
+}
 
 template <typename D>
 HWY_INLINE hn::Vec<D> load_values(D df, const std::int8_t* values) {
@@ -139,64 +145,85 @@ HWY_INLINE hn::Vec<D> load_values(D df, const float* values) {
     return hn::LoadU(df, values);
 }
 
-// Two vectors of slots in three colours, summed in registers.
+// A few vectors of slots in three colours, summed in registers: as many as there are registers
+// for.
 template <typename D>
 struct Registers {
-    hn::Vec<D> red[2], green[2], blue[2];
+#if HWY_TARGET == HWY_AVX3
+    static constexpr std::size_t kVectors = 4;
+#else
+    static constexpr std::size_t kVectors = 2;
+#endif
+    hn::Vec<D> red[kVectors], green[kVectors], blue[kVectors];
+
+    HWY_INLINE void clear(D df) {
+        for (std::size_t v = 0; v < kVectors; ++v) {
+            red[v] = green[v] = blue[v] = hn::Zero(df);
+        }
+    }
 
     template <typename Value>
     HWY_INLINE void add(D df, const CellValues<Value>& cells, std::size_t slot) {
         for (std::size_t s = 0; s < cells.count; ++s) {
             const Value* HWY_RESTRICT values = cells.values[s] + slot;
             const float* HWY_RESTRICT weights = cells.weights[s];
-            const auto v0 = load_values(df, values);
-            const auto v1 = load_values(df, values + hn::Lanes(df));
             const auto r = hn::Set(df, weights[0]);
             const auto g = hn::Set(df, weights[1]);
             const auto b = hn::Set(df, weights[2]);
-            red[0] = hn::MulAdd(r, v0, red[0]);
-            green[0] = hn::MulAdd(g, v0, green[0]);
-            blue[0] = hn::MulAdd(b, v0, blue[0]);
-            red[1] = hn::MulAdd(r, v1, red[1]);
-            green[1] = hn::MulAdd(g, v1, green[1]);
-            blue[1] = hn::MulAdd(b, v1, blue[1]);
+            for (std::size_t v = 0; v < kVectors; ++v) {
+                const auto value = load_values(df, values + v * hn::Lanes(df));
+                red[v] = hn::MulAdd(r, value, red[v]);
+                green[v] = hn::MulAdd(g, value, green[v]);
+                blue[v] = hn::MulAdd(b, value, blue[v]);
+            }
         }
     }
 
-    HWY_INLINE void store(D df, float* HWY_RESTRICT sums) const {
-        for (std::size_t half = 0; half < 2; ++half, sums += hn::Lanes(df)) {
-            store_one(df, red[half], sums);
-            store_one(df, green[half], sums + kBlockSize);
-            store_one(df, blue[half], sums + 2 * kBlockSize);
+    HWY_INLINE void add_to(D df, float* HWY_RESTRICT sums) const {
+        for (std::size_t v = 0; v < kVectors; ++v, sums += hn::Lanes(df)) {
+            add_one(df, red[v], sums);
+            add_one(df, green[v], sums + kBlockSize);
+            add_one(df, blue[v], sums + 2 * kBlockSize);
         }
-    }
-    static HWY_INLINE void store_one(D df, hn::Vec<D> sum, float* HWY_RESTRICT target) {
-        hn::StoreU(hn::Add(hn::LoadU(df, target), sum), df, target);
     }
 };
 
-// The cells of one block that are summed together.
+// The cells of one block that are summed together; 8-bit ones by quarters, so that those that
+// hold only zeroes, as the finest of a block's coefficients often do, cost nothing.
 struct BlockValues {
-    CellValues<std::int8_t> bits8;
+    static constexpr std::size_t kQuarters = 4;
+    static constexpr std::size_t kQuarterSlots = kBlockSize / kQuarters;
+
+    std::array<CellValues<std::int8_t>, kQuarters> bits8;
     CellValues<std::int16_t> bits16;
     CellValues<float> floats;
+    bool any = false;
 
-    void clear() { bits8.count = bits16.count = floats.count = 0; }
-    [[nodiscard]] bool empty() const { return bits8.count + bits16.count + floats.count == 0; }
+    void clear() {
+        for (auto& quarter : bits8) {
+            quarter.count = 0;
+        }
+        bits16.count = floats.count = 0;
+        any = false;
+    }
 
-    // Sums of all slots pass through registers once for all cells.
+    // Sums pass through registers once for all cells.
     void add_to(float* HWY_RESTRICT sums, float* HWY_RESTRICT total) const {
         const hn::CappedTag<float, 16> df;
-        const std::size_t lanes = hn::Lanes(df);
-        for (std::size_t slot = 0; slot < kBlockSize; slot += 2 * lanes) {
-            const auto zero = hn::Zero(df);
-            Registers<decltype(df)> registers{{zero, zero}, {zero, zero}, {zero, zero}};
-            registers.add(df, bits8, slot);
+        Registers<decltype(df)> registers;
+        const std::size_t slots = Registers<decltype(df)>::kVectors * hn::Lanes(df);
+        for (std::size_t slot = 0; slot < kBlockSize; slot += slots) {
+            const std::size_t quarter = slot / kQuarterSlots;
+            if (bits8[quarter].count + bits16.count + floats.count == 0) {
+                continue;
+            }
+            registers.clear(df);
+            registers.add(df, bits8[quarter], slot % kQuarterSlots);
             registers.add(df, bits16, slot);
             registers.add(df, floats, slot);
-            registers.store(df, sums + slot);
+            registers.add_to(df, sums + slot);
             if (total != nullptr) {
-                registers.store(df, total + slot);
+                registers.add_to(df, total + slot);
             }
         }
     }
@@ -208,7 +235,11 @@ class SparseSums {
   public:
     void clear() { used_ = 0; }
 
-    void add(std::uint32_t block, const std::uint8_t* cell, const ColourWeights& weights) {
+    // Returns the byte after the cell.
+    const std::uint8_t* add(std::uint32_t block,
+                            const std::uint8_t* cell,
+                            const ColourWeights& weights,
+                            float scale) {
         const hn::FixedTag<float, 4> d4;
         float* HWY_RESTRICT sums = sums_[block].data();
         if (((used_ >> block) & 1U) == 0) {
@@ -216,7 +247,7 @@ class SparseSums {
             sums_[block].fill(0);
         }
         const std::array<float, 4> padded{weights[0], weights[1], weights[2], 0};
-        const auto w = hn::LoadU(d4, padded.data());
+        const auto w = hn::Mul(hn::Set(d4, scale), hn::LoadU(d4, padded.data()));
         const std::size_t count = cell[0];
         const std::uint8_t* slots = cell + 1;
         const auto* values = reinterpret_cast<const std::int8_t*>(slots + count);
@@ -225,6 +256,7 @@ class SparseSums {
             const auto value = hn::Set(d4, static_cast<float>(values[i]));
             hn::Store(hn::MulAdd(w, value, hn::Load(d4, slot)), d4, slot);
         }
+        return slots + 2 * count;
     }
 
     void add_to(const SumTargets& targets) const {
@@ -243,9 +275,9 @@ class SparseSums {
         for (std::size_t slot = 0; slot < kBlockSize; slot += 4) {
             hn::Vec<decltype(d4)> red, green, blue, unused;
             hn::LoadInterleaved4(d4, sums + 4 * slot, red, green, blue, unused);
-            Registers<decltype(d4)>::store_one(d4, red, target + slot);
-            Registers<decltype(d4)>::store_one(d4, green, target + kBlockSize + slot);
-            Registers<decltype(d4)>::store_one(d4, blue, target + 2 * kBlockSize + slot);
+            add_one(d4, red, target + slot);
+            add_one(d4, green, target + kBlockSize + slot);
+            add_one(d4, blue, target + 2 * kBlockSize + slot);
         }
     }
 
@@ -267,7 +299,7 @@ class Workspace {
             lists_.fill(group, block_count);
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(group, block);
-                if (!values_.empty()) {
+                if (values_.any) {
                     const std::size_t first = std::size_t{block} * kSumsPerBlock;
                     values_.add_to(targets.sums + first,
                                    targets.total != nullptr ? targets.total + first : nullptr);
@@ -279,27 +311,41 @@ class Workspace {
     }
 
   private:
-    // Sparse cells are added to their sums, the others go into values_.
+    // Sparse values are added to their sums, the others go into values_.
     void take_cells(std::span<const WeightedSegment> group, std::uint32_t block) {
         values_.clear();
+        std::size_t expanded8 = 0;
         for (const ListedCell& listed : lists_.of_block(block)) {
             const ColourWeights& weights = group[listed.segment].weights;
             const std::uint8_t* cell = listed.cell;
-            switch (listed.tag) {
-                case CellTag::empty:
+            CellTag tag = listed.tag;
+            if (transport::is_split(tag)) {
+                cell = sparse_.add(block, cell, weights, transport::kHighPart);
+                tag = transport::low_tag(tag);
+            }
+            values_.any = values_.any || tag != CellTag::sparse8;
+            switch (tag) {
+                case CellTag::sparse8:
+                    sparse_.add(block, cell, weights, 1);
                     break;
                 case CellTag::dense8:
-                    values_.bits8.add(reinterpret_cast<const std::int8_t*>(cell), weights);
+                    for (std::size_t q = 0; q < BlockValues::kQuarters; ++q) {
+                        values_.bits8[q].add(reinterpret_cast<const std::int8_t*>(cell) +
+                                                 q * BlockValues::kQuarterSlots,
+                                             weights);
+                    }
                     break;
                 case CellTag::bitmap8: {
-                    std::int8_t* values = expanded8_[values_.bits8.count].data();
-                    expansion_.bits8(cell, values);
-                    values_.bits8.add(values, weights);
+                    const std::int8_t* values = expanded8_[expanded8].data();
+                    expansion_.bits8(cell, expanded8_[expanded8++].data());
+                    for (std::size_t q = 0; q < BlockValues::kQuarters; ++q) {
+                        std::uint64_t occupied = 0;
+                        std::memcpy(&occupied, cell + q * sizeof(occupied), sizeof(occupied));
+                        values_.bits8[q].add(values + q * BlockValues::kQuarterSlots, weights,
+                                             occupied != 0);
+                    }
                     break;
                 }
-                case CellTag::sparse8:
-                    sparse_.add(block, cell, weights);
-                    break;
                 case CellTag::dense16: {
                     std::int16_t* values = expanded16_[values_.bits16.count].data();
                     std::memcpy(values, cell, kBlockSize * sizeof(std::int16_t));
@@ -314,10 +360,12 @@ class Workspace {
                 }
                 case CellTag::dense32f: {
                     transport::DecodedCell& values = decoded_[values_.floats.count];
-                    transport::decode_cell(listed.tag, cell, values);
+                    transport::decode_cell(tag, cell, values);
                     values_.floats.add(values.data(), weights);
                     break;
                 }
+                default:  // lists hold no empty cells
+                    break;
             }
         }
     }
@@ -326,7 +374,7 @@ class Workspace {
     CellLists lists_;
     BlockValues values_;
     SparseSums sparse_;
-    // By place in values_.
+    // In the order in which they go into values_.
     std::array<std::array<std::int8_t, kBlockSize>, kMaxGroupSegments> expanded8_;
     std::array<std::array<std::int16_t, kBlockSize>, kMaxGroupSegments> expanded16_;
     std::array<transport::DecodedCell, kMaxGroupSegments> decoded_;

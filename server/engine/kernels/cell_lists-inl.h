@@ -82,6 +82,12 @@ class CellLists {
                 return 1 + 2 * std::size_t{cell[0]};
             case transport::CellTag::bitmap8:
                 return transport::kBitmapBytes + population(cell);
+            case transport::CellTag::split_dense8:
+            case transport::CellTag::split_bitmap8:
+            case transport::CellTag::split_sparse8: {
+                const std::size_t high = 1 + 2 * std::size_t{cell[0]};
+                return high + size_of(transport::low_tag(tag), cell + high);
+            }
             default:
                 return transport::cell_bytes(tag, cell);
         }

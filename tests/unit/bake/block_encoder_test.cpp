@@ -1,6 +1,8 @@
 #include "precompute/bake/block_encoder.h"
 
 #include "protocol/transport/hash.h"
+#include "protocol/transport/quantise.h"
+#include "protocol/transport/receiver_basis.h"
 
 #include <gtest/gtest.h>
 
@@ -9,55 +11,86 @@
 namespace relume::bake {
 namespace {
 
-TEST(BlockEncoder, RowsGiveTheSameBytesAsCells) {
-    constexpr std::uint32_t kColumns = 96;
-    constexpr std::uint32_t kChannels = 3;
-    constexpr std::uint64_t kFirstReceiver = 7 * transport::kBlockSize;
-    const auto value_of = [](std::uint64_t slot, std::uint64_t j, std::uint64_t k) {
-        const float u =
-            transport::unit_float(transport::mix_bits((slot * kColumns + j) * kChannels + k));
-        return std::pow(u, 8.0F) * 400 * (u > 0.9F ? -1.0F : 1.0F);
-    };
-    std::vector<float> steps(kColumns * kChannels);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        steps[i] = 0.5F + 0.1F * static_cast<float>(i % 7);
+constexpr std::uint32_t kColumns = 40;  // not a multiple of what is transposed at once
+constexpr std::uint32_t kChannels = 3;
+
+// Smooth over the block, larger in some columns than in others.
+float value_of(std::uint32_t slot, std::uint32_t j, std::uint32_t k) {
+    const float x = static_cast<float>(slot % transport::kTileSide);
+    const float y = static_cast<float>(slot / transport::kTileSide);
+    const auto key = std::uint64_t{j} * kChannels + k;
+    const float amplitude = std::pow(transport::unit_float(transport::mix_bits(key)), 6.0F);
+    return 400 * amplitude * std::sin(0.1F * (x + 2 * y) + static_cast<float>(key));
+}
+
+std::vector<float> make_steps() {
+    std::vector<float> steps;
+    for (std::uint32_t i = 0; i < kColumns * kChannels; ++i) {
+        steps.push_back(0.5F + 0.1F * static_cast<float>(i % 7));
     }
-    BlockEncoder encoder;
+    return steps;
+}
+
+BlockRows make_rows() {
+    BlockRows rows(kColumns, kChannels);
     for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
         for (std::uint32_t k = 0; k < kChannels; ++k) {
-            std::vector<float> values;
-            std::vector<float> inverse_steps;
+            std::vector<float> row;
             for (std::uint32_t j = 0; j < kColumns; ++j) {
-                values.push_back(value_of(slot, j, k));
-                inverse_steps.push_back(1.0F / steps[j * kChannels + k]);
+                row.push_back(value_of(slot, j, k));
             }
-            transport::quantise_row(values, inverse_steps, kFirstReceiver + slot, k, kChannels,
-                                    encoder.row(slot));
+            rows.set(slot, k, row);
         }
     }
-    const transport::EncodedBlock by_rows = encoder.encode(steps.size());
+    return rows;
+}
 
-    transport::EncodedBlock by_cells(steps.size());
+TEST(BlockEncoder, StoresTheBlocksCoefficientsColumnByColumn) {
+    const std::vector<float> steps = make_steps();
+    StoredRows stored{.slots = {0, 119, 255}, .rows = {}};
+    const transport::EncodedBlock block = encode_block(make_rows(), steps, stored);
+    ASSERT_TRUE(block.complete());
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
-        std::array<float, transport::kBlockSize> values{};
+        const std::uint32_t j = i / kChannels;
+        const std::uint32_t k = i % kChannels;
+        std::array<float, transport::kBlockSize> values;
         for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
-            values[slot] = value_of(slot, i / kChannels, i % kChannels);
+            values[slot] = value_of(slot, j, k);
         }
-        transport::QuantisedCell cell;
-        transport::quantise_cell(values, steps[i], kFirstReceiver, i, cell);
-        by_cells.append(cell);
-    }
-    ASSERT_TRUE(by_rows.complete());
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        ASSERT_EQ(by_rows.tag(i), by_cells.tag(i)) << i;
-        const auto a = by_rows.cell(i);
-        const auto b = by_cells.cell(i);
-        ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << i;
+        transport::block_coefficients_from_receivers(values);
+        transport::QuantisedCell expected;
+        transport::quantise_cell(values, steps[i], expected);
+        transport::DecodedCell found;
+        transport::decode_cell(block.tag(i), block.cell(i).data(), found);
+        for (std::size_t s = 0; s < found.size(); ++s) {
+            ASSERT_EQ(found[s], static_cast<float>(expected[s])) << i;
+            values[s] = found[s] * steps[i];
+        }
+        // What it says the receivers have become is what a reader will find.
+        transport::block_receivers_from_coefficients(values);
+        for (std::size_t s = 0; s < stored.slots.size(); ++s) {
+            EXPECT_FLOAT_EQ(stored.rows[s][k * kColumns + j], values[stored.slots[s]]);
+        }
     }
 }
 
-TEST(BlockEncoder, ReceiversWithoutLightGiveEmptyCells) {
-    const transport::EncodedBlock block = BlockEncoder().encode(10);
+TEST(BlockEncoder, ReceiversWithoutRowsCostNoCoefficients) {
+    BlockRows rows(1, 1);
+    const std::array<float, 1> row{6};
+    for (std::uint32_t slot = 0; slot < transport::kBlockSize; slot += 3) {
+        rows.set(slot, 0, row);
+    }
+    StoredRows stored;
+    const std::array<float, 1> steps{1};
+    const transport::EncodedBlock block = encode_block(rows, steps, stored);
+    EXPECT_EQ(block.tag(0), transport::CellTag::sparse8);
+    EXPECT_EQ(transport::cell_nonzeros(block.tag(0), block.cell(0).data()), 1U);
+}
+
+TEST(BlockEncoder, BlocksWithoutReceiversGiveEmptyCells) {
+    StoredRows stored;
+    const std::vector<float> steps(10, 1.0F);
+    const transport::EncodedBlock block = encode_block(BlockRows(10, 1), steps, stored);
     ASSERT_TRUE(block.complete());
     for (std::size_t i = 0; i < 10; ++i) {
         EXPECT_EQ(block.tag(i), transport::CellTag::empty);

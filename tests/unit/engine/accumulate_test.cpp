@@ -87,7 +87,8 @@ TEST(Accumulate, ScalarAddsWhatTheCellsHold) {
             for (std::size_t i = 0; i < kBlockSize; ++i) {
                 const float expected =
                     0.75F + list[0].weights[c] * static_cast<float>(cells[b][i]);
-                ASSERT_EQ(sums[(b * kColours + c) * kBlockSize + i], expected);
+                // A split value is two products.
+                ASSERT_FLOAT_EQ(sums[(b * kColours + c) * kBlockSize + i], expected);
             }
         }
     }

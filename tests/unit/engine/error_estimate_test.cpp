@@ -12,7 +12,8 @@ namespace {
 
 // ‖tint·T·lighting‖ from the dense product.
 double true_norm(const TinyScene& tiny, const std::vector<float>& lighting) {
-    const auto sums = test::dense_product(tiny.transport(), lighting);
+    auto sums = test::dense_product(tiny.transport(), lighting);
+    test::receivers_from_sums(sums);
     const auto tint = tiny.transport().tint();
     double squared = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -131,7 +131,8 @@ TEST_F(RoomTest, TheSettledImageIsTheDenseProductOverTransparency) {
     light::evaluate(rig, n, cubemap);
     std::vector<float> lighting;
     light::lighting_coefficients(cubemap, lighting);
-    const std::vector<double> sums = test::dense_product(transport, lighting);
+    std::vector<double> sums = test::dense_product(transport, lighting);
+    test::receivers_from_sums(sums);
 
     const wire::HalfImage shown =
         wire::decode_half_image(std::span(frame->bytes).subspan(wire::kImageHeaderBytes),
