@@ -1,77 +1,95 @@
 #include "server/engine/selection.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace relume::engine {
 
-using transport::kColours;
+template <typename Visit>
+void Selection::for_each_candidate(const Scene& scene,
+                                   const Ranking& ranking,
+                                   const Plan& plan,
+                                   const Visit& visit) {
+    for (const BandChunk& chunk : scene.band_chunks()) {
+        const std::span<const float> importance =
+            plan.resets(chunk.band) ? ranking.from_nothing() : ranking.as_shown();
+        for (std::size_t place = chunk.first; place < chunk.last; ++place) {
+            if (importance[place] != Ranking::kNoDifference) {
+                visit(Candidate{std::bit_cast<std::uint32_t>(importance[place]),
+                                scene.columns_by_band()[place]});
+            }
+        }
+    }
+}
 
 void Selection::choose(const Scene& scene,
                        const Lighting& lighting,
-                       std::span<const float> weights,
-                       const SelectionBudget& budget) {
-    gather(scene, lighting, weights);
-    const std::size_t taken = take_most_important(scene, budget);
-    std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(taken),
-              [bands = scene.bands()](const Candidate& a, const Candidate& b) {
-                  return bands[a.column] != bands[b.column] ? bands[a.column] < bands[b.column]
-                                                            : a.column < b.column;
-              });
-    changes_.clear();
-    for (std::size_t i = 0; i < taken; ++i) {
-        changes_.push_back(lighting.difference(candidates_[i].column));
+                       const Ranking& ranking,
+                       const SelectionBudget& budget,
+                       Plan& plan) {
+    plan.changes.clear();
+    plan.bytes = 0;
+    fill_buckets(scene, ranking, plan);
+    if (plan.differing_columns == 0) {
+        return;
     }
+    const Candidate last = last_within(scene, ranking, budget, plan);
+    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
+        if (!last.comes_before(candidate)) {
+            plan.changes.push_back(plan.resets(scene.bands()[candidate.column])
+                                       ? lighting.whole(candidate.column)
+                                       : lighting.difference(candidate.column));
+        }
+    });
 }
 
-void Selection::gather(const Scene& scene,
-                       const Lighting& lighting,
-                       std::span<const float> weights) {
-    const std::size_t count = scene.coefficient_count();
-    candidates_.reserve(count);
-    changes_.reserve(count);
-    candidates_.clear();
-    differing_bytes_ = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-        if (!lighting.differs(j)) {
-            continue;
-        }
-        const ColumnChange change = lighting.difference(j);
-        float importance = 0;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            const float weighted = weights[c * count + j] * change.amount[c];
-            importance += weighted * weighted;
-        }
-        candidates_.push_back({importance, static_cast<std::uint32_t>(j)});
-        differing_bytes_ += scene.transport().column_bytes(j);
-    }
+void Selection::fill_buckets(const Scene& scene, const Ranking& ranking, Plan& plan) {
+    buckets_.fill({});
+    plan.differing_columns = 0;
+    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
+        Bucket& bucket = buckets_[candidate.importance_bits >> kBucketShift];
+        bucket.columns += 1;
+        bucket.bytes += scene.transport().column_bytes(candidate.column);
+        plan.differing_columns += 1;
+    });
 }
 
-std::size_t Selection::take_most_important(const Scene& scene, const SelectionBudget& budget) {
-    const auto more_important = [](const Candidate& a, const Candidate& b) {
-        return a.importance != b.importance ? a.importance > b.importance : a.column < b.column;
-    };
-    const std::size_t limit = std::min<std::size_t>(candidates_.size(), budget.columns);
-    chosen_bytes_ = 0;
+Selection::Candidate Selection::last_within(const Scene& scene,
+                                            const Ranking& ranking,
+                                            const SelectionBudget& budget,
+                                            Plan& plan) {
     std::size_t taken = 0;
-    // Ever larger heads of the list are put in order, so that a small budget out of many
-    // candidates costs one linear pass.
-    constexpr std::size_t kFirstHead = 64;
-    for (std::size_t head = kFirstHead; taken < limit; head *= 4) {
-        const std::size_t end = std::min(head, limit);
-        const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(taken);
-        const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(end);
-        std::nth_element(first, last, candidates_.end(), more_important);
-        std::sort(first, last, more_important);
-        for (; taken < end; ++taken) {
-            const std::uint32_t bytes =
-                scene.transport().column_bytes(candidates_[taken].column);
-            if (taken > 0 && chosen_bytes_ + bytes > budget.bytes) {
-                return taken;
-            }
-            chosen_bytes_ += bytes;
-        }
+    std::size_t bucket = kBuckets;
+    while (bucket > 0 && taken + buckets_[bucket - 1].columns <= budget.columns &&
+           plan.bytes + buckets_[bucket - 1].bytes <= budget.bytes) {
+        --bucket;
+        taken += buckets_[bucket].columns;
+        plan.bytes += buckets_[bucket].bytes;
     }
-    return taken;
+    if (bucket == 0) {
+        return {.importance_bits = 0, .column = ~std::uint32_t{0}};
+    }
+    // The budget ends among the columns of the bucket below.
+    Candidate last{.importance_bits = static_cast<std::uint32_t>(bucket) << kBucketShift,
+                   .column = ~std::uint32_t{0}};
+    boundary_.clear();
+    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
+        if (candidate.importance_bits >> kBucketShift == bucket - 1) {
+            boundary_.push_back(candidate);
+        }
+    });
+    std::sort(boundary_.begin(), boundary_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.comes_before(b); });
+    for (const Candidate& candidate : boundary_) {
+        const std::uint32_t bytes = scene.transport().column_bytes(candidate.column);
+        if (taken > 0 && (taken + 1 > budget.columns || plan.bytes + bytes > budget.bytes)) {
+            break;
+        }
+        ++taken;
+        plan.bytes += bytes;
+        last = candidate;
+    }
+    return last;
 }
 
 }  // namespace relume::engine

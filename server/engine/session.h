@@ -7,8 +7,8 @@
 #include "server/engine/error_estimate.h"
 #include "server/engine/full_product.h"
 #include "server/engine/lighting.h"
+#include "server/engine/planner.h"
 #include "server/engine/scene.h"
-#include "server/engine/selection.h"
 
 #include <cstdint>
 #include <memory>
@@ -65,8 +65,10 @@ class Session {
     void write_image(std::span<float> rgb) const;
 
   private:
-    void begin_new_lighting(StepReport& report);
-    void advance_incrementally(const wire::Budget& budget, StepReport& report);
+    // Chooses; the approximation and the image stay as they are.
+    [[nodiscard]] const Plan& next_plan(const wire::Budget& budget);
+    // Brings image, approximation and estimates to where the plan leads.
+    void carry_out(const Plan& plan, StepReport& report);
     void advance_full_product(const wire::Budget& budget, StepReport& report);
     [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
     [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
@@ -76,10 +78,10 @@ class Session {
     std::shared_ptr<const Scene> scene_;
     wire::Strategy strategy_;
     Lighting lighting_;
+    Planner planner_;
     BandImages images_;
     ErrorEstimate error_;
     CostModel cost_;
-    Selection selection_;
     FullProduct full_product_;
     std::uint32_t remaining_ = 0;
     bool lighting_is_new_ = false;
