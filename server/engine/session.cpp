@@ -64,23 +64,36 @@ StepReport Session::advance(const wire::Budget& budget) {
         if (!lighting_is_new_ && full_product_is_next(budget)) {
             advance_full_product(budget, report);
         } else {
-            carry_out(next_plan(budget), report);
+            carry_out(next_plan(selection_budget(budget)), report);
         }
     }
-    report.remaining = exact_ ? 0 : remaining_;
-    report.exact = exact_;
-    report.stated_error = stated_error();
+    state(report);
     return report;
 }
 
-const Plan& Session::next_plan(const wire::Budget& budget) {
+StepReport Session::advance_incrementally(const SelectionBudget& budget) {
+    StepReport report;
+    if (!exact_) {
+        carry_out(next_plan(budget), report);
+    }
+    state(report);
+    return report;
+}
+
+void Session::state(StepReport& report) const {
+    report.remaining = exact_ ? 0 : remaining_;
+    report.exact = exact_;
+    report.stated_error = stated_error();
+}
+
+const Plan& Session::next_plan(const SelectionBudget& budget) {
     if (!lighting_is_new_) {
-        return planner_.go_on(lighting_, strategy_, selection_budget(budget));
+        return planner_.go_on(lighting_, strategy_, budget);
     }
     const Stopwatch stopwatch;
     lighting_is_new_ = false;
     error_.set_target(lighting_.target());
-    const Plan& plan = planner_.begin(lighting_, strategy_, selection_budget(budget));
+    const Plan& plan = planner_.begin(lighting_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
     return plan;
 }

@@ -47,6 +47,10 @@ class Session {
     // history. Costs nothing when exact.
     StepReport advance(const wire::Budget& budget);
 
+    // One image's worth of the method alone, under a budget of columns and bytes: what
+    // `advance` does before it turns to the full product.
+    StepReport advance_incrementally(const SelectionBudget& budget);
+
     // True when `advance` has nothing left to do under this budget: exact, or the target error
     // is met.
     [[nodiscard]] bool at_rest(const wire::Budget& budget) const;
@@ -66,9 +70,10 @@ class Session {
 
   private:
     // Chooses; the approximation and the image stay as they are.
-    [[nodiscard]] const Plan& next_plan(const wire::Budget& budget);
+    [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);
     // Brings image, approximation and estimates to where the plan leads.
     void carry_out(const Plan& plan, StepReport& report);
+    void state(StepReport& report) const;
     void advance_full_product(const wire::Budget& budget, StepReport& report);
     [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
     [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
