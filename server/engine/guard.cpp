@@ -2,43 +2,66 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace relume::engine {
+namespace {
+
+// To weigh a candidate costs in proportion to the shortlist. Beyond so many places the image
+// itself is near the target whatever begins anew, and only the first three are weighed.
+constexpr std::size_t kLongestSearched = 4096;
+
+}  // namespace
 
 Guard::Guard(const Scene& scene)
     : scene_(&scene),
       sketch_(&scene.transport().choosing_sketch()),
       target_(scene, *sketch_),
-      approximation_(target_),
-      candidates_(kMostCandidates),
-      selections_(kMostCandidates) {}
+      approximation_(target_) {}
 
 const Plan& Guard::decide(const Lighting& lighting,
-                          const Ranking& ranking,
+                          Ranking& ranking,
                           const SelectionBudget& budget) {
-    target_.set(lighting.target());
+    const bool rests = set_target(lighting.target());
     if (!approximation_known_) {
         approximation_.set(lighting.approximation());
         approximation_known_ = true;
     }
+    standing_error_ = predicted_error({});
+    ranking.shortlist(*scene_, budget, shortlist_);
     candidate_count_ = 0;
+    weighed_count_ = 0;
+    best_ = 0;
     propose(0);
-    propose(ranking.bands_nearer_from_nothing());
-    propose(bands_fainter_from_nothing());
-    propose((1U << scene_->band_count()) - 1);
-    tbb::parallel_for(std::size_t{0}, candidate_count_, [&](std::size_t i) {
-        Candidate& candidate = candidates_[i];
-        selections_[i].choose(*scene_, lighting, ranking, budget, candidate.plan);
-        candidate.predicted_error = predicted_error(candidate.plan);
-    });
-    return std::min_element(candidates_.begin(),
-                            candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
-                            [](const Candidate& a, const Candidate& b) {
-                                return a.predicted_error < b.predicted_error;
-                            })
-        ->plan;
+    if (!rests) {
+        propose(ranking.bands_nearer_from_nothing());
+        propose((1U << scene_->band_count()) - 1);
+    }
+    weigh_new(lighting, ranking, budget);
+    if (!rests && shortlist_.size() <= kLongestSearched) {
+        search_nearby(lighting, ranking, budget);
+    }
+    return candidates_[best_].plan;
+}
+
+bool Guard::set_target(std::span<const float> lighting) {
+    last_target_ = target_.sum();
+    target_.set(lighting);
+    return target_.sum() == last_target_;
+}
+
+void Guard::search_nearby(const Lighting& lighting,
+                          const Ranking& ranking,
+                          const SelectionBudget& budget) {
+    std::size_t last_best = candidate_count_;
+    while (best_ != last_best) {
+        last_best = best_;
+        const std::uint32_t bands_to_reset = candidates_[best_].plan.bands_to_reset;
+        for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
+            propose(bands_to_reset ^ (1U << band));
+        }
+        weigh_new(lighting, ranking, budget);
+    }
 }
 
 void Guard::propose(std::uint32_t bands_to_reset) {
@@ -47,26 +70,36 @@ void Guard::propose(std::uint32_t bands_to_reset) {
             return;
         }
     }
+    if (candidate_count_ == candidates_.size()) {
+        candidates_.emplace_back();
+    }
     candidates_[candidate_count_].plan.bands_to_reset = bands_to_reset;
     ++candidate_count_;
 }
 
-// The image-space twin of PBI's criterion: ‖T_b L_b‖ < ‖T_b (L_b − L̃_b)‖.
-std::uint32_t Guard::bands_fainter_from_nothing() const {
-    std::uint32_t mask = 0;
-    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
-        const auto target = target_.band(band);
-        const auto approximation = approximation_.band(band);
-        double from_nothing = 0;
-        double as_shown = 0;
-        for (std::size_t i = 0; i < target.size(); ++i) {
-            const double difference = target[i] - approximation[i];
-            from_nothing += target[i] * target[i];
-            as_shown += difference * difference;
+void Guard::weigh_new(const Lighting& lighting,
+                      const Ranking& ranking,
+                      const SelectionBudget& budget) {
+    tbb::parallel_for(weighed_count_, candidate_count_, [&](std::size_t i) {
+        Candidate& candidate = candidates_[i];
+        selections_.local().choose(*scene_, lighting, ranking, shortlist_, budget,
+                                   candidate.plan);
+        candidate.predicted_error = predicted_error(candidate.plan);
+    });
+    for (std::size_t i = weighed_count_; i < candidate_count_; ++i) {
+        if (is_better(candidates_[i], candidates_[best_])) {
+            best_ = i;
         }
-        mask |= from_nothing < as_shown ? 1U << band : 0U;
     }
-    return mask;
+    weighed_count_ = candidate_count_;
+}
+
+bool Guard::is_better(const Candidate& candidate, const Candidate& than) const {
+    // Rounding must not pass for an improvement.
+    constexpr double kNearer = 0.999;
+    const bool eligible = candidate.plan.bands_to_reset == 0 ||
+                          candidate.predicted_error < kNearer * standing_error_;
+    return eligible && candidate.predicted_error < than.predicted_error;
 }
 
 double Guard::predicted_error(const Plan& plan) const {

@@ -17,7 +17,7 @@ const Plan& Planner::begin(const Lighting& lighting,
         // Every image of the non-linear approximation starts from nothing [Ng03 §4].
         plan_.bands_to_reset = (1U << scene_->band_count()) - 1;
     }
-    selection_.choose(*scene_, lighting, ranking_, budget, plan_);
+    selection_.choose(*scene_, lighting, ranking_, scene_->places(), budget, plan_);
     return plan_;
 }
 
@@ -26,7 +26,7 @@ const Plan& Planner::go_on(const Lighting& lighting,
                            const SelectionBudget& budget) {
     ranking_.rank(*scene_, lighting, scene_->weights(strategy.priority));
     plan_.bands_to_reset = 0;
-    selection_.choose(*scene_, lighting, ranking_, budget, plan_);
+    selection_.choose(*scene_, lighting, ranking_, scene_->places(), budget, plan_);
     return plan_;
 }
 

@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,27 +16,30 @@ void Ranking::rank(const Scene& scene,
     const std::span<const BandChunk> chunks = scene.band_chunks();
     as_shown_.resize(scene.coefficient_count());
     from_nothing_.resize(scene.coefficient_count());
-    distances_.resize(chunks.size());
+    chunks_.resize(chunks.size());
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-        distances_[i] = rank_chunk(scene, lighting, weights, chunks[i]);
+        chunks_[i] = rank_chunk(scene, lighting, weights, chunks[i]);
     });
-    std::array<Distances, kMaxBands> bands{};
+    bands_.fill({});
     for (std::size_t i = 0; i < chunks.size(); ++i) {
-        bands[chunks[i].band].from_nothing += distances_[i].from_nothing;
-        bands[chunks[i].band].as_shown += distances_[i].as_shown;
+        Summary& band = bands_[chunks[i].band];
+        band.from_nothing += chunks_[i].from_nothing;
+        band.as_shown += chunks_[i].as_shown;
+        band.lit += chunks_[i].lit;
+        band.differing += chunks_[i].differing;
     }
     bands_nearer_from_nothing_ = 0;
     for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-        if (bands[band].from_nothing < bands[band].as_shown) {
+        if (bands_[band].from_nothing < bands_[band].as_shown) {
             bands_nearer_from_nothing_ |= 1U << band;
         }
     }
 }
 
-Ranking::Distances Ranking::rank_chunk(const Scene& scene,
-                                       const Lighting& lighting,
-                                       std::span<const float> weights,
-                                       const BandChunk& chunk) {
+Ranking::Summary Ranking::rank_chunk(const Scene& scene,
+                                     const Lighting& lighting,
+                                     std::span<const float> weights,
+                                     const BandChunk& chunk) {
     const std::size_t count = scene.coefficient_count();
     const std::span<const float> target = lighting.target();
     const std::span<const float> approximation = lighting.approximation();
@@ -45,7 +48,7 @@ Ranking::Distances Ranking::rank_chunk(const Scene& scene,
         constexpr float kLargest = std::numeric_limits<float>::max();
         return importance <= kLargest ? importance : kLargest;
     };
-    Distances distances;
+    Summary summary;
     for (std::size_t place = chunk.first; place < chunk.last; ++place) {
         const std::size_t column = scene.columns_by_band()[place];
         float shown = 0;
@@ -60,13 +63,45 @@ Ranking::Distances Ranking::rank_chunk(const Scene& scene,
             differs = differs || wanted != approximation[i];
             nothing += weights[i] * wanted * (weights[i] * wanted);
             shown += weights[i] * difference * (weights[i] * difference);
-            distances.from_nothing += double{std::abs(wanted)};
-            distances.as_shown += double{std::abs(difference)};
+            summary.from_nothing += double{std::abs(wanted)};
+            summary.as_shown += double{std::abs(difference)};
         }
         from_nothing_[place] = lit ? finite(nothing) : kNoDifference;
         as_shown_[place] = differs ? finite(shown) : kNoDifference;
+        summary.lit += lit ? 1 : 0;
+        summary.differing += differs ? 1 : 0;
     }
-    return distances;
+    return summary;
+}
+
+std::uint32_t Ranking::differing_columns(std::uint32_t bands_to_reset) const {
+    std::uint32_t columns = 0;
+    for (std::size_t band = 0; band < bands_.size(); ++band) {
+        const bool reset = ((bands_to_reset >> band) & 1U) != 0;
+        columns += reset ? bands_[band].lit : bands_[band].differing;
+    }
+    return columns;
+}
+
+void Ranking::shortlist(const Scene& scene,
+                        const SelectionBudget& budget,
+                        std::vector<std::uint32_t>& places) {
+    buckets_.clear();
+    for (std::size_t place = 0; place < as_shown_.size(); ++place) {
+        const float lesser = std::min(as_shown_[place], from_nothing_[place]);
+        if (lesser != kNoDifference) {
+            const std::uint32_t column = scene.columns_by_band()[place];
+            buckets_.add(lesser, scene.transport().column_bytes(column));
+        }
+    }
+    const float least = buckets_.least_within(budget);
+    places.clear();
+    for (std::size_t place = 0; place < as_shown_.size(); ++place) {
+        const float greater = std::max(as_shown_[place], from_nothing_[place]);
+        if (greater != kNoDifference && greater >= least) {
+            places.push_back(static_cast<std::uint32_t>(place));
+        }
+    }
 }
 
 }  // namespace relume::engine

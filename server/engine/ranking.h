@@ -1,9 +1,11 @@
 // How important every column's difference between lighting and approximation is.
 #pragma once
 
+#include "server/engine/importance_buckets.h"
 #include "server/engine/lighting.h"
 #include "server/engine/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +26,17 @@ class Ranking {
     [[nodiscard]] std::span<const float> from_nothing() const { return from_nothing_; }
     static constexpr float kNoDifference = -1;
 
+    // Columns that differ once the bands of the mask have begun anew.
+    [[nodiscard]] std::uint32_t differing_columns(std::uint32_t bands_to_reset) const;
+
+    // Of all places, in order, those that may be chosen within the budget whatever bands begin
+    // anew: the importance at which a budget ends is never below the one at which it ends when
+    // every column counts by the lesser of its two importances. Replaces the content of
+    // `places`.
+    void shortlist(const Scene& scene,
+                   const SelectionBudget& budget,
+                   std::vector<std::uint32_t>& places);
+
     // Bands in which starting afresh is nearer to the target than what is shown,
     // ‖L_b‖₁ < ‖L_b − L̃_b‖₁ [Overbeck06 §5], as a bit mask.
     [[nodiscard]] std::uint32_t bands_nearer_from_nothing() const {
@@ -31,20 +44,24 @@ class Ranking {
     }
 
   private:
-    // ‖L‖₁ and ‖L − L̃‖₁ over some columns.
-    struct Distances {
+    // ‖L‖₁ and ‖L − L̃‖₁ over some columns, and how many of each are not zero.
+    struct Summary {
         double from_nothing = 0;
         double as_shown = 0;
+        std::uint32_t lit = 0;
+        std::uint32_t differing = 0;
     };
 
-    [[nodiscard]] Distances rank_chunk(const Scene& scene,
-                                       const Lighting& lighting,
-                                       std::span<const float> weights,
-                                       const BandChunk& chunk);
+    [[nodiscard]] Summary rank_chunk(const Scene& scene,
+                                     const Lighting& lighting,
+                                     std::span<const float> weights,
+                                     const BandChunk& chunk);
 
-    std::vector<float> as_shown_;       // [N]
-    std::vector<float> from_nothing_;   // [N]
-    std::vector<Distances> distances_;  // a chunk each
+    std::vector<float> as_shown_;      // [N]
+    std::vector<float> from_nothing_;  // [N]
+    std::vector<Summary> chunks_;
+    std::array<Summary, kMaxBands> bands_{};
+    ImportanceBuckets buckets_;
     std::uint32_t bands_nearer_from_nothing_ = 0;
 };
 

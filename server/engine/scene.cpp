@@ -41,6 +41,7 @@ void Scene::order_by_band() {
     constexpr std::size_t kColumnsPerChunk = 1024;
     columns_by_band_.resize(coefficient_count());
     std::iota(columns_by_band_.begin(), columns_by_band_.end(), 0U);
+    places_ = columns_by_band_;
     std::stable_sort(
         columns_by_band_.begin(), columns_by_band_.end(),
         [this](std::uint32_t a, std::uint32_t b) { return bands_[a] < bands_[b]; });

@@ -49,6 +49,8 @@ class Scene {
     [[nodiscard]] std::span<const std::uint32_t> columns_by_band() const {
         return columns_by_band_;
     }
+    // Every place in it, 0 … N−1.
+    [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
     // The same in pieces of one band and at most 1024 columns, in order: what loops over the
     // lighting are parallel over, so that their sums do not depend on the number of threads.
     [[nodiscard]] std::span<const BandChunk> band_chunks() const { return band_chunks_; }
@@ -70,6 +72,7 @@ class Scene {
     std::uint32_t band_count_;
     std::vector<std::uint8_t> bands_;
     std::vector<std::uint32_t> columns_by_band_;
+    std::vector<std::uint32_t> places_;
     std::vector<BandChunk> band_chunks_;
     std::array<std::vector<float>, 4> weights_;
 };

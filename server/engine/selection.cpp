@@ -1,95 +1,75 @@
 #include "server/engine/selection.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace relume::engine {
-
-template <typename Visit>
-void Selection::for_each_candidate(const Scene& scene,
-                                   const Ranking& ranking,
-                                   const Plan& plan,
-                                   const Visit& visit) {
-    for (const BandChunk& chunk : scene.band_chunks()) {
-        const std::span<const float> importance =
-            plan.resets(chunk.band) ? ranking.from_nothing() : ranking.as_shown();
-        for (std::size_t place = chunk.first; place < chunk.last; ++place) {
-            if (importance[place] != Ranking::kNoDifference) {
-                visit(Candidate{std::bit_cast<std::uint32_t>(importance[place]),
-                                scene.columns_by_band()[place]});
-            }
-        }
-    }
-}
 
 void Selection::choose(const Scene& scene,
                        const Lighting& lighting,
                        const Ranking& ranking,
+                       std::span<const std::uint32_t> places,
                        const SelectionBudget& budget,
                        Plan& plan) {
     plan.changes.clear();
     plan.bytes = 0;
-    fill_buckets(scene, ranking, plan);
-    if (plan.differing_columns == 0) {
+    plan.differing_columns = ranking.differing_columns(plan.bands_to_reset);
+    candidates_.clear();
+    buckets_.clear();
+    for (const std::uint32_t place : places) {
+        const std::uint32_t column = scene.columns_by_band()[place];
+        const bool reset = plan.resets(scene.bands()[column]);
+        const float importance =
+            reset ? ranking.from_nothing()[place] : ranking.as_shown()[place];
+        if (importance != Ranking::kNoDifference) {
+            candidates_.push_back({importance, column});
+            buckets_.add(importance, scene.transport().column_bytes(column));
+        }
+    }
+    if (candidates_.empty()) {
         return;
     }
-    const Candidate last = last_within(scene, ranking, budget, plan);
-    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
+    const Candidate last = last_within(scene, budget, plan);
+    for (const Candidate& candidate : candidates_) {
         if (!last.comes_before(candidate)) {
             plan.changes.push_back(plan.resets(scene.bands()[candidate.column])
                                        ? lighting.whole(candidate.column)
                                        : lighting.difference(candidate.column));
         }
-    });
-}
-
-void Selection::fill_buckets(const Scene& scene, const Ranking& ranking, Plan& plan) {
-    buckets_.fill({});
-    plan.differing_columns = 0;
-    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
-        Bucket& bucket = buckets_[candidate.importance_bits >> kBucketShift];
-        bucket.columns += 1;
-        bucket.bytes += scene.transport().column_bytes(candidate.column);
-        plan.differing_columns += 1;
-    });
+    }
 }
 
 Selection::Candidate Selection::last_within(const Scene& scene,
-                                            const Ranking& ranking,
                                             const SelectionBudget& budget,
                                             Plan& plan) {
-    std::size_t taken = 0;
-    std::size_t bucket = kBuckets;
-    while (bucket > 0 && taken + buckets_[bucket - 1].columns <= budget.columns &&
-           plan.bytes + buckets_[bucket - 1].bytes <= budget.bytes) {
-        --bucket;
-        taken += buckets_[bucket].columns;
-        plan.bytes += buckets_[bucket].bytes;
-    }
-    if (bucket == 0) {
-        return {.importance_bits = 0, .column = ~std::uint32_t{0}};
-    }
-    // The budget ends among the columns of the bucket below.
-    Candidate last{.importance_bits = static_cast<std::uint32_t>(bucket) << kBucketShift,
-                   .column = ~std::uint32_t{0}};
+    const ImportanceBuckets::End end = buckets_.end_of(budget);
+    plan.bytes = end.bytes_above;
     boundary_.clear();
-    for_each_candidate(scene, ranking, plan, [&](const Candidate& candidate) {
-        if (candidate.importance_bits >> kBucketShift == bucket - 1) {
+    for (const Candidate& candidate : candidates_) {
+        if (ImportanceBuckets::bucket_of(candidate.importance) == end.bucket) {
             boundary_.push_back(candidate);
         }
-    });
+    }
     std::sort(boundary_.begin(), boundary_.end(),
               [](const Candidate& a, const Candidate& b) { return a.comes_before(b); });
-    for (const Candidate& candidate : boundary_) {
-        const std::uint32_t bytes = scene.transport().column_bytes(candidate.column);
-        if (taken > 0 && (taken + 1 > budget.columns || plan.bytes + bytes > budget.bytes)) {
+    std::uint32_t taken = end.columns_above;
+    std::size_t fitting = 0;
+    for (; fitting < boundary_.size(); ++fitting) {
+        const std::uint32_t bytes = scene.transport().column_bytes(boundary_[fitting].column);
+        if (taken > 0 && (taken >= budget.columns || plan.bytes + bytes > budget.bytes)) {
             break;
         }
         ++taken;
         plan.bytes += bytes;
-        last = candidate;
     }
-    return last;
+    if (fitting > 0) {
+        return boundary_[fitting - 1];
+    }
+    // All above the bucket: none of it comes after the bucket's upper end.
+    constexpr std::uint32_t kAnyColumn = ~std::uint32_t{0};
+    return {.importance = end.bucket == ImportanceBuckets::kNone
+                              ? 0
+                              : ImportanceBuckets::lower_end(end.bucket + 1),
+            .column = kAnyColumn};
 }
 
 }  // namespace relume::engine
