@@ -117,8 +117,9 @@ void add_render_command(CLI::App& app) {
         ->take_all();
     command->add_option("--patch", options->edits.patch,
                         "further edits as a JSON merge patch, or @FILE with one");
-    command->add_option("--method", options->edits.method, "nwa, bi or pbi");
-    command->add_option("--priority", options->edits.priority, "area, none or transport");
+    command->add_option("--method", options->edits.method, "nwa, bi, pbi or guarded");
+    command->add_option("--priority", options->edits.priority,
+                        "area, none, transport or benefit");
     auto* milliseconds = command->add_option("--budget-ms", options->edits.budget_ms,
                                              "relighting time per image");
     command->add_option("--coefficients", options->edits.coefficients, "coefficients per image")

@@ -117,7 +117,8 @@ class Bake {
         manifest_.fingerprint = fingerprint_of(scene, camera_, parameters, generator());
         manifest_.image = image_;
         manifest_.face_resolution = parameters.face_resolution;
-        manifest_.sketch_rows = kSketchRows;
+        manifest_.stating_rows = kStatingRows;
+        manifest_.choosing_rows = kChoosingRows;
         manifest_.camera = record_of(camera_);
         manifest_.bake = json_from_parameters(parameters);
         manifest_.bake["scene"] = scene.name;
@@ -148,7 +149,8 @@ class Bake {
     }
 
   private:
-    static constexpr std::uint32_t kSketchRows = 256;
+    static constexpr std::uint32_t kStatingRows = 256;
+    static constexpr std::uint32_t kChoosingRows = 64;
 
     void bake_shard(std::uint32_t shard,
                     const ShardBaker& shards,

@@ -16,22 +16,70 @@
 namespace relume::transport {
 namespace {
 
-// Where a receiver adds to the sketch, and with which sign.
+constexpr std::uint64_t kStatingSeed = 0x736b65746368;       // "sketch"
+constexpr std::uint64_t kChoosingSeed = 0x63686f6f73696e67;  // "choosing"
+
+// Where a receiver adds to a sketch, and with which sign.
 struct SketchPlace {
     std::uint16_t row = 0;
     float sign = 1;
 };
 
-std::vector<SketchPlace> sketch_places(std::size_t receivers, std::uint32_t rows) {
-    constexpr std::uint64_t kSketchSeed = 0x736b65746368;  // "sketch"
-    std::vector<SketchPlace> places(receivers);
-    for (std::size_t p = 0; p < receivers; ++p) {
-        const std::uint64_t bits = mix_bits(mix_bits(kSketchSeed) ^ p);
-        places[p] = {.row = static_cast<std::uint16_t>((bits >> 1) % rows),
-                     .sign = (bits & 1U) != 0 ? 1.0F : -1.0F};
+// A sketch's rows and where every receiver adds to them.
+struct SketchPlan {
+    std::uint32_t rows = 0;
+    std::vector<SketchPlace> places;
+
+    SketchPlan(std::uint32_t row_count, std::uint64_t seed, std::size_t receivers)
+        : rows(row_count), places(receivers) {
+        for (std::size_t p = 0; p < receivers; ++p) {
+            const std::uint64_t bits = mix_bits(mix_bits(seed) ^ p);
+            places[p] = {.row = static_cast<std::uint16_t>((bits >> 1) % rows),
+                         .sign = (bits & 1U) != 0 ? 1.0F : -1.0F};
+        }
     }
-    return places;
-}
+
+    [[nodiscard]] SketchTable empty_table(std::size_t columns) const {
+        return {.scales = std::vector<float>(columns * kColours),
+                .values = std::vector<std::int16_t>(columns * kColours * rows)};
+    }
+};
+
+// The sketch of one column at a time.
+class ColumnSketch {
+  public:
+    explicit ColumnSketch(const SketchPlan& plan)
+        : plan_(plan), sums_(kColours * std::size_t{plan.rows}) {}
+
+    void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
+    void add(std::size_t colour, std::size_t receiver, double value) {
+        const SketchPlace& place = plan_.places[receiver];
+        sums_[colour * plan_.rows + place.row] += double{place.sign} * value;
+    }
+    // Rounded to 16 bits, the largest value of each colour to the largest integer.
+    void store(std::size_t column, SketchTable& table) const {
+        constexpr double kLargestInteger = std::numeric_limits<std::int16_t>::max();
+        const std::size_t rows = plan_.rows;
+        for (std::size_t c = 0; c < kColours; ++c) {
+            const std::span<const double> sums = std::span(sums_).subspan(c * rows, rows);
+            double largest = 0;
+            for (const double value : sums) {
+                largest = std::max(largest, std::abs(value));
+            }
+            const std::size_t place = column * kColours + c;
+            const auto scale = static_cast<float>(largest / kLargestInteger);
+            table.scales[place] = scale;
+            for (std::size_t r = 0; r < rows && scale > 0; ++r) {
+                table.values[place * rows + r] = static_cast<std::int16_t>(
+                    std::clamp(std::round(sums[r] / scale), -kLargestInteger, kLargestInteger));
+            }
+        }
+    }
+
+  private:
+    const SketchPlan& plan_;
+    std::vector<double> sums_;  // [3][rows]
+};
 
 // Sums one column at a time; holds what is reused from column to column.
 class ColumnSummer {
@@ -39,16 +87,18 @@ class ColumnSummer {
     ColumnSummer(const Manifest& manifest,
                  std::span<const float> steps,
                  std::span<const float> tint,
-                 std::span<const SketchPlace> places)
+                 const SketchPlan& stating,
+                 const SketchPlan& choosing)
         : manifest_(manifest),
           steps_(steps),
           tint_(tint),
-          places_(places),
-          rows_(kColours * std::size_t{manifest.sketch_rows}) {}
+          stating_(stating),
+          choosing_(choosing) {}
 
     void sum(std::size_t column, std::span<const ShardReader> shards) {
         energy_ = {};
-        std::fill(rows_.begin(), rows_.end(), 0.0);
+        stating_.clear();
+        choosing_.clear();
         bytes_ = 0;
         for (const ShardReader& shard : shards) {
             add_shard(column, shard);
@@ -60,23 +110,11 @@ class ColumnSummer {
                                              column, bytes_));
         }
         summary.column_bytes[column] = static_cast<std::uint32_t>(bytes_);
-        const std::size_t rows = manifest_.sketch_rows;
         for (std::size_t c = 0; c < kColours; ++c) {
-            const std::size_t place = column * kColours + c;
-            summary.energies[place] = static_cast<float>(energy_[c]);
-            const std::span<const double> sketch = std::span(rows_).subspan(c * rows, rows);
-            double largest = 0;
-            for (const double value : sketch) {
-                largest = std::max(largest, std::abs(value));
-            }
-            constexpr double kLargestInteger = std::numeric_limits<std::int16_t>::max();
-            const auto scale = static_cast<float>(largest / kLargestInteger);
-            summary.sketch_scales[place] = scale;
-            for (std::size_t r = 0; r < rows && scale > 0; ++r) {
-                summary.sketch_values[place * rows + r] = static_cast<std::int16_t>(std::clamp(
-                    std::round(sketch[r] / scale), -kLargestInteger, kLargestInteger));
-            }
+            summary.energies[column * kColours + c] = static_cast<float>(energy_[c]);
         }
+        stating_.store(column, summary.stating);
+        choosing_.store(column, summary.choosing);
     }
 
   private:
@@ -115,7 +153,6 @@ class ColumnSummer {
         const std::uint32_t channels = manifest_.colour.channels;
         const std::size_t first = std::size_t{block} * kBlockSize;
         for (std::size_t c = 0; c < kColours; ++c) {
-            double* rows = &rows_[c * manifest_.sketch_rows];
             const float* tint = &tint_[first * kColours + c * kBlockSize];
             for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
                 double value = 0;
@@ -128,8 +165,8 @@ class ColumnSummer {
                 }
                 value *= double{tint[slot]};
                 energy_[c] += value * value;
-                const SketchPlace& place = places_[first + slot];
-                rows[place.row] += double{place.sign} * value;
+                stating_.add(c, first + slot, value);
+                choosing_.add(c, first + slot, value);
             }
         }
     }
@@ -137,9 +174,9 @@ class ColumnSummer {
     const Manifest& manifest_;
     std::span<const float> steps_;
     std::span<const float> tint_;
-    std::span<const SketchPlace> places_;
+    ColumnSketch stating_;
+    ColumnSketch choosing_;
     std::array<double, kColours> energy_{};
-    std::vector<double> rows_;
     std::uint64_t bytes_ = 0;
 };
 
@@ -153,14 +190,15 @@ ColumnSummary summarise_columns(const Manifest& manifest,
     ColumnSummary summary;
     summary.energies.resize(columns * kColours);
     summary.column_bytes.resize(columns);
-    summary.sketch_scales.resize(columns * kColours);
-    summary.sketch_values.resize(columns * kColours * manifest.sketch_rows);
-    const std::vector<SketchPlace> places =
-        sketch_places(std::size_t{manifest.block_count()} * kBlockSize, manifest.sketch_rows);
+    const std::size_t receivers = std::size_t{manifest.block_count()} * kBlockSize;
+    const SketchPlan stating(manifest.stating_rows, kStatingSeed, receivers);
+    const SketchPlan choosing(manifest.choosing_rows, kChoosingSeed, receivers);
+    summary.stating = stating.empty_table(columns);
+    summary.choosing = choosing.empty_table(columns);
     constexpr std::size_t kColumnsPerTask = 64;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, columns, kColumnsPerTask),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                          ColumnSummer summer(manifest, steps, tint, places);
+                          ColumnSummer summer(manifest, steps, tint, stating, choosing);
                           for (std::size_t j = range.begin(); j < range.end(); ++j) {
                               summer.sum(j, shards);
                               summer.store(j, summary);

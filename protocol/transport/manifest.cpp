@@ -264,7 +264,8 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"basis", {{"name", "haar"}, {"face_resolution", manifest.face_resolution}}},
         {"colour", json_from(manifest.colour)},
         {"blocks", manifest.block_count()},
-        {"sketch", {{"rows", manifest.sketch_rows}}},
+        {"sketch",
+         {{"stating_rows", manifest.stating_rows}, {"choosing_rows", manifest.choosing_rows}}},
         {"files",
          {{"columns", json_from(manifest.columns)},
           {"receivers", json_from(manifest.receivers)},
@@ -305,8 +306,9 @@ Manifest manifest_from_text(std::string_view text, std::string_view file) {
     }
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
-    manifest.sketch_rows =
-        top.object("sketch").integer32("rows", kMinSketchRows, kMaxSketchRows);
+    const ObjectReader sketch = top.object("sketch");
+    manifest.stating_rows = sketch.integer32("stating_rows", kMinSketchRows, kMaxSketchRows);
+    manifest.choosing_rows = sketch.integer32("choosing_rows", kMinSketchRows, kMaxSketchRows);
     const ObjectReader files = top.object("files");
     manifest.columns = file_record(files.object("columns"));
     manifest.receivers = file_record(files.object("receivers"));

@@ -58,7 +58,8 @@ struct Manifest {
     TileGrid image;
     std::uint32_t face_resolution = 0;
     ColourModel colour;
-    std::uint32_t sketch_rows = 0;
+    std::uint32_t stating_rows = 0;   // of the sketch that states errors
+    std::uint32_t choosing_rows = 0;  // of the sketch by which a server chooses what to do
     FileRecord columns;
     FileRecord receivers;
     FileRecord sketch;

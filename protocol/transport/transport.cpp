@@ -138,9 +138,12 @@ void Transport::open_tables() {
     receiver_table.expect_end();
 
     TableReader sketch_table = reader(2, manifest_.sketch);
-    sketch_scales_ = sketch_table.take_floats(columns * kColours, 0, "scale");
-    sketch_values_ =
-        sketch_table.take<std::int16_t>(columns * kColours * manifest_.sketch_rows);
+    const auto take_sketch = [&](std::uint32_t rows, const char* scale) {
+        const auto scales = sketch_table.take_floats(columns * kColours, 0, scale);
+        return Sketch(rows, scales, sketch_table.take<std::int16_t>(columns * kColours * rows));
+    };
+    stating_sketch_ = take_sketch(manifest_.stating_rows, "scale of stating rows");
+    choosing_sketch_ = take_sketch(manifest_.choosing_rows, "scale of choosing rows");
     sketch_table.expect_end();
 
     for (const std::uint32_t bytes : column_bytes_) {

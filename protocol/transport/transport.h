@@ -13,6 +13,37 @@
 
 namespace relume::transport {
 
+// Random combinations of the rows of the transport: S·T, `rows()` numbers a column and colour.
+class Sketch {
+  public:
+    Sketch() = default;
+    // Scales [N][3], values [N][3][rows].
+    Sketch(std::uint32_t rows,
+           std::span<const float> scales,
+           std::span<const std::int16_t> values)
+        : rows_(rows), scales_(scales), values_(values) {}
+
+    [[nodiscard]] std::uint32_t rows() const { return rows_; }
+    // Integers, times the scale.
+    [[nodiscard]] std::span<const std::int16_t> values(std::size_t column,
+                                                       std::uint32_t colour) const {
+        return values_.subspan(first_value(column, colour), rows_);
+    }
+    // All of them, [N][3][rows], and where those of a column and colour begin.
+    [[nodiscard]] std::span<const std::int16_t> table() const { return values_; }
+    [[nodiscard]] std::size_t first_value(std::size_t column, std::uint32_t colour) const {
+        return (column * kColours + colour) * rows_;
+    }
+    [[nodiscard]] float scale(std::size_t column, std::uint32_t colour) const {
+        return scales_[column * kColours + colour];
+    }
+
+  private:
+    std::uint32_t rows_ = 0;
+    std::span<const float> scales_;
+    std::span<const std::int16_t> values_;
+};
+
 // Safe to share between threads.
 class Transport {
   public:
@@ -45,15 +76,10 @@ class Transport {
     // [blocks][3][256].
     [[nodiscard]] std::span<const float> tint() const { return tint_; }
 
-    // Sketch of column j, colour c: `rows` integers, times the scale.
-    [[nodiscard]] std::span<const std::int16_t> sketch(std::size_t column,
-                                                       std::uint32_t colour) const {
-        const std::size_t rows = manifest_.sketch_rows;
-        return sketch_values_.subspan((column * kColours + colour) * rows, rows);
-    }
-    [[nodiscard]] float sketch_scale(std::size_t column, std::uint32_t colour) const {
-        return sketch_scales_[column * kColours + colour];
-    }
+    // Two sketches of independent rows: what is chosen by the one is stated by the other, for
+    // rows that have been minimised over are no unbiased witness any more.
+    [[nodiscard]] const Sketch& stating_sketch() const { return stating_sketch_; }
+    [[nodiscard]] const Sketch& choosing_sketch() const { return choosing_sketch_; }
 
   private:
     explicit Transport(const std::filesystem::path& directory);
@@ -69,8 +95,8 @@ class Transport {
     std::span<const std::uint32_t> column_bytes_;
     std::span<const float> coverage_;
     std::span<const float> tint_;
-    std::span<const float> sketch_scales_;
-    std::span<const std::int16_t> sketch_values_;
+    Sketch stating_sketch_;
+    Sketch choosing_sketch_;
     std::uint64_t total_bytes_ = 0;
 };
 

@@ -119,7 +119,8 @@ void TransportWriter::finish(const BakedTables& tables, const nlohmann::json& me
                                       {bytes_of(tables.coverage), bytes_of(tables.tint)});
     manifest_.sketch =
         write_table(directory_, "sketch.bin",
-                    {bytes_of(summary.sketch_scales), bytes_of(summary.sketch_values)});
+                    {bytes_of(summary.stating.scales), bytes_of(summary.stating.values),
+                     bytes_of(summary.choosing.scales), bytes_of(summary.choosing.values)});
     manifest_.measured = measured;
     manifest_.measured["cells"] = json_from(statistics);
     const std::string text = text_from_manifest(manifest_);

@@ -6,16 +6,18 @@
 
 namespace relume::wire {
 
-inline constexpr NameTable<Method, 3> kMethodNames({{
+inline constexpr NameTable<Method, 4> kMethodNames({{
     {Method::nwa, "nwa"},
     {Method::bi, "bi"},
     {Method::pbi, "pbi"},
+    {Method::guarded, "guarded"},
 }});
 
-inline constexpr NameTable<Priority, 3> kPriorityNames({{
+inline constexpr NameTable<Priority, 4> kPriorityNames({{
     {Priority::area, "area"},
     {Priority::none, "none"},
     {Priority::transport, "transport"},
+    {Priority::benefit, "benefit"},
 }});
 
 inline constexpr NameTable<BackgroundMode, 3> kBackgroundModeNames({{

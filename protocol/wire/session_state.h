@@ -16,8 +16,8 @@
 
 namespace relume::wire {
 
-enum class Method : std::uint8_t { nwa, bi, pbi };
-enum class Priority : std::uint8_t { area, none, transport };
+enum class Method : std::uint8_t { nwa, bi, pbi, guarded };
+enum class Priority : std::uint8_t { area, none, transport, benefit };
 enum class BackgroundMode : std::uint8_t { environment, colour, transparent };
 enum class Tone : std::uint8_t { filmic, linear };
 
@@ -62,8 +62,8 @@ struct Background {
 };
 
 struct Strategy {
-    Method method = Method::pbi;
-    Priority priority = Priority::transport;
+    Method method = Method::guarded;
+    Priority priority = Priority::benefit;
 
     friend bool operator==(const Strategy&, const Strategy&) = default;
 };

@@ -12,8 +12,8 @@ void gather_columns(const Scene& scene,
     const std::size_t count = scene.coefficient_count();
     columns.clear();
     columns.reserve(count);
-    for (std::size_t j = 0; j < count; ++j) {
-        ColumnChange change{.column = static_cast<std::uint32_t>(j)};
+    for (const std::uint32_t j : scene.columns_by_band()) {
+        ColumnChange change{.column = j};
         bool any = false;
         for (std::size_t c = 0; c < kColours; ++c) {
             change.amount[c] = lighting[c * count + j];
@@ -23,11 +23,6 @@ void gather_columns(const Scene& scene,
             columns.push_back(change);
         }
     }
-    std::sort(columns.begin(), columns.end(),
-              [bands = scene.bands()](const ColumnChange& a, const ColumnChange& b) {
-                  return bands[a.column] != bands[b.column] ? bands[a.column] < bands[b.column]
-                                                            : a.column < b.column;
-              });
 }
 
 std::span<const ColumnChange> changes_of_band(std::span<const ColumnChange> changes,

@@ -2,17 +2,14 @@
 // estimated from the sketch of the transport at a cost independent of the image's size.
 #pragma once
 
-#include "server/engine/column_change.h"
+#include "server/engine/band_sketches.h"
 #include "server/engine/scene.h"
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace relume::engine {
 
-// Keeps S·T·L and S·T·L̃, 3·R numbers each, in double precision. The estimate
+// Keeps S·T·L and S·T·L̃ for the stating rows S, in double precision. The estimate
 // ‖S T (L − L̃)‖ / ‖S T L‖ has a relative standard deviation of about 1/√(2R) to 1/√(6R), as the
 // colours are alike or not. The rows only state; nothing is chosen by them, for what is
 // minimised is no longer an unbiased witness. Not thread-safe.
@@ -21,10 +18,10 @@ class ErrorEstimate {
     explicit ErrorEstimate(const Scene& scene);
 
     // Lighting is planar [3][N].
-    void set_target(std::span<const float> lighting);
-    void set_approximation(std::span<const float> lighting);
-    // L̃ has changed in these columns.
-    void change_approximation(std::span<const ColumnChange> changes);
+    void set_target(std::span<const float> lighting) { target_.set(lighting); }
+    void set_approximation(std::span<const float> lighting) { approximation_.set(lighting); }
+    // The plan has been carried out on L̃.
+    void apply(const Plan& plan) { approximation_.apply(plan); }
     void approximation_is_target() { approximation_ = target_; }
 
     // 0 when both are equal; 1 when nothing of the target is shown. When the target is black,
@@ -34,13 +31,8 @@ class ErrorEstimate {
     [[nodiscard]] double shown_norm() const;
 
   private:
-    using Sketch = std::vector<double>;  // [3][R]
-
-    [[nodiscard]] Sketch sketch_of(std::span<const float> lighting) const;
-
-    const Scene* scene_;
-    Sketch target_;
-    Sketch approximation_;
+    BandSketches target_;
+    BandSketches approximation_;
 };
 
 }  // namespace relume::engine

@@ -1,7 +1,7 @@
 // Target lighting L and its approximation L̃, as Haar coefficients.
 #pragma once
 
-#include "server/engine/column_change.h"
+#include "server/engine/plan.h"
 #include "server/engine/scene.h"
 
 #include <cstdint>
@@ -20,19 +20,14 @@ class Lighting {
 
     [[nodiscard]] std::span<const float> target() const { return target_; }
     [[nodiscard]] std::span<const float> approximation() const { return approximation_; }
-    [[nodiscard]] bool differs(std::size_t column) const;
     // L − L̃ of one column.
     [[nodiscard]] ColumnChange difference(std::size_t column) const;
+    // L of one column: the difference from nothing.
+    [[nodiscard]] ColumnChange whole(std::size_t column) const;
 
-    // L̃_j := L_j.
-    void apply(std::size_t column);
+    // Carries the plan out on L̃; L̃_j := L_j where a column is changed.
+    void apply(const Plan& plan);
     void apply_all();
-    // L̃ := 0 in one band.
-    void reset_band(std::uint32_t band);
-
-    // Bands in which starting afresh is nearer to the target than what is shown,
-    // ‖L_b‖₁ < ‖L_b − L̃_b‖₁ [Overbeck06 §5], as a bit mask.
-    [[nodiscard]] std::uint32_t bands_to_reset() const;
 
   private:
     [[nodiscard]] float target(std::size_t colour, std::size_t column) const {
@@ -43,7 +38,6 @@ class Lighting {
     }
 
     std::span<const std::uint8_t> bands_;
-    std::uint32_t band_count_;
     std::size_t count_;
     std::vector<float> target_;
     std::vector<float> approximation_;

@@ -2,7 +2,9 @@
 
 #include "protocol/basis/haar.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace relume::engine {
 
@@ -19,14 +21,37 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     for (std::size_t j = 0; j < count; ++j) {
         const std::uint32_t band = basis::band_from_coefficient(face_resolution(), j);
         bands_[j] = static_cast<std::uint8_t>(band);
+        const std::uint32_t bytes = transport_->column_bytes(j);
         for (std::uint32_t c = 0; c < kColours; ++c) {
             const std::size_t place = c * count + j;
             weights_[static_cast<std::size_t>(wire::Priority::none)][place] = 1;
             weights_[static_cast<std::size_t>(wire::Priority::area)][place] =
                 std::ldexp(1.0F, -static_cast<int>(band));
-            weights_[static_cast<std::size_t>(wire::Priority::transport)][place] =
-                std::sqrt(transport_->energy(j, c));
+            const float norm = std::sqrt(transport_->energy(j, c));
+            weights_[static_cast<std::size_t>(wire::Priority::transport)][place] = norm;
+            // A column without bytes is zero and gains nothing.
+            weights_[static_cast<std::size_t>(wire::Priority::benefit)][place] =
+                bytes == 0 ? 0 : norm / std::sqrt(static_cast<float>(bytes));
         }
+    }
+    order_by_band();
+}
+
+void Scene::order_by_band() {
+    constexpr std::size_t kColumnsPerChunk = 1024;
+    columns_by_band_.resize(coefficient_count());
+    std::iota(columns_by_band_.begin(), columns_by_band_.end(), 0U);
+    places_ = columns_by_band_;
+    std::stable_sort(
+        columns_by_band_.begin(), columns_by_band_.end(),
+        [this](std::uint32_t a, std::uint32_t b) { return bands_[a] < bands_[b]; });
+    for (std::size_t place = 0; place < columns_by_band_.size(); ++place) {
+        const std::uint32_t band = bands_[columns_by_band_[place]];
+        if (band_chunks_.empty() || band_chunks_.back().band != band ||
+            place - band_chunks_.back().first == kColumnsPerChunk) {
+            band_chunks_.push_back({.band = band, .first = place, .last = place});
+        }
+        band_chunks_.back().last = place + 1;
     }
 }
 

@@ -4,12 +4,23 @@
 #include "protocol/transport/transport.h"
 #include "protocol/wire/session_state.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace relume::engine {
+
+// Levels of a face of 256×256.
+inline constexpr std::uint32_t kMaxBands = 8;
+
+// Places [first, last) in Scene::columns_by_band, all of one band.
+struct BandChunk {
+    std::uint32_t band = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
 
 // Immutable; safe to share between threads.
 class Scene {
@@ -34,20 +45,36 @@ class Scene {
     // Band of every coefficient, [N].
     [[nodiscard]] std::span<const std::uint8_t> bands() const { return bands_; }
 
+    // All columns, ordered by band and then index: the order in which images are summed, [N].
+    [[nodiscard]] std::span<const std::uint32_t> columns_by_band() const {
+        return columns_by_band_;
+    }
+    // Every place in it, 0 … N−1.
+    [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
+    // The same in pieces of one band and at most 1024 columns, in order: what loops over the
+    // lighting are parallel over, so that their sums do not depend on the number of threads.
+    [[nodiscard]] std::span<const BandChunk> band_chunks() const { return band_chunks_; }
+
     // What a coefficient's change is multiplied with, per colour, to rank it: [3][N], planar.
     //   none       1                                             [Ng03 §4.1, unweighted]
     //   area       2^-level, the amplitude·area of the wavelet    [Ng03 §4.1, area-weighted]
     //   transport  ‖T_j‖ of the colour                           [Ng03 §4.1,
-    //   transport-weighted]
+    //   transport-weighted] benefit    ‖T_j‖ / √(bytes of the column): squared, what the image
+    //   gains per byte read
     [[nodiscard]] std::span<const float> weights(wire::Priority priority) const {
         return weights_[static_cast<std::size_t>(priority)];
     }
 
   private:
+    void order_by_band();
+
     std::shared_ptr<const transport::Transport> transport_;
     std::uint32_t band_count_;
     std::vector<std::uint8_t> bands_;
-    std::vector<float> weights_[3];
+    std::vector<std::uint32_t> columns_by_band_;
+    std::vector<std::uint32_t> places_;
+    std::vector<BandChunk> band_chunks_;
+    std::array<std::vector<float>, 4> weights_;
 };
 
 }  // namespace relume::engine

@@ -4,74 +4,72 @@
 
 namespace relume::engine {
 
-using transport::kColours;
-
 void Selection::choose(const Scene& scene,
                        const Lighting& lighting,
-                       std::span<const float> weights,
-                       const SelectionBudget& budget) {
-    gather(scene, lighting, weights);
-    const std::size_t taken = take_most_important(scene, budget);
-    std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(taken),
-              [bands = scene.bands()](const Candidate& a, const Candidate& b) {
-                  return bands[a.column] != bands[b.column] ? bands[a.column] < bands[b.column]
-                                                            : a.column < b.column;
-              });
-    changes_.clear();
-    for (std::size_t i = 0; i < taken; ++i) {
-        changes_.push_back(lighting.difference(candidates_[i].column));
-    }
-}
-
-void Selection::gather(const Scene& scene,
-                       const Lighting& lighting,
-                       std::span<const float> weights) {
-    const std::size_t count = scene.coefficient_count();
-    candidates_.reserve(count);
-    changes_.reserve(count);
+                       const Ranking& ranking,
+                       std::span<const std::uint32_t> places,
+                       const SelectionBudget& budget,
+                       Plan& plan) {
+    plan.changes.clear();
+    plan.bytes = 0;
+    plan.differing_columns = ranking.differing_columns(plan.bands_to_reset);
     candidates_.clear();
-    differing_bytes_ = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-        if (!lighting.differs(j)) {
-            continue;
+    buckets_.clear();
+    for (const std::uint32_t place : places) {
+        const std::uint32_t column = scene.columns_by_band()[place];
+        const bool reset = plan.resets(scene.bands()[column]);
+        const float importance =
+            reset ? ranking.from_nothing()[place] : ranking.as_shown()[place];
+        if (importance != Ranking::kNoDifference) {
+            candidates_.push_back({importance, column});
+            buckets_.add(importance, scene.transport().column_bytes(column));
         }
-        const ColumnChange change = lighting.difference(j);
-        float importance = 0;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            const float weighted = weights[c * count + j] * change.amount[c];
-            importance += weighted * weighted;
+    }
+    if (candidates_.empty()) {
+        return;
+    }
+    const Candidate last = last_within(scene, budget, plan);
+    for (const Candidate& candidate : candidates_) {
+        if (!last.comes_before(candidate)) {
+            plan.changes.push_back(plan.resets(scene.bands()[candidate.column])
+                                       ? lighting.whole(candidate.column)
+                                       : lighting.difference(candidate.column));
         }
-        candidates_.push_back({importance, static_cast<std::uint32_t>(j)});
-        differing_bytes_ += scene.transport().column_bytes(j);
     }
 }
 
-std::size_t Selection::take_most_important(const Scene& scene, const SelectionBudget& budget) {
-    const auto more_important = [](const Candidate& a, const Candidate& b) {
-        return a.importance != b.importance ? a.importance > b.importance : a.column < b.column;
-    };
-    const std::size_t limit = std::min<std::size_t>(candidates_.size(), budget.columns);
-    chosen_bytes_ = 0;
-    std::size_t taken = 0;
-    // Ever larger heads of the list are put in order, so that a small budget out of many
-    // candidates costs one linear pass.
-    constexpr std::size_t kFirstHead = 64;
-    for (std::size_t head = kFirstHead; taken < limit; head *= 4) {
-        const std::size_t end = std::min(head, limit);
-        const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(taken);
-        const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(end);
-        std::nth_element(first, last, candidates_.end(), more_important);
-        std::sort(first, last, more_important);
-        for (; taken < end; ++taken) {
-            const std::uint32_t bytes =
-                scene.transport().column_bytes(candidates_[taken].column);
-            if (taken > 0 && chosen_bytes_ + bytes > budget.bytes) {
-                return taken;
-            }
-            chosen_bytes_ += bytes;
+Selection::Candidate Selection::last_within(const Scene& scene,
+                                            const SelectionBudget& budget,
+                                            Plan& plan) {
+    const ImportanceBuckets::End end = buckets_.end_of(budget);
+    plan.bytes = end.bytes_above;
+    boundary_.clear();
+    for (const Candidate& candidate : candidates_) {
+        if (ImportanceBuckets::bucket_of(candidate.importance) == end.bucket) {
+            boundary_.push_back(candidate);
         }
     }
-    return taken;
+    std::sort(boundary_.begin(), boundary_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.comes_before(b); });
+    std::uint32_t taken = end.columns_above;
+    std::size_t fitting = 0;
+    for (; fitting < boundary_.size(); ++fitting) {
+        const std::uint32_t bytes = scene.transport().column_bytes(boundary_[fitting].column);
+        if (taken > 0 && (taken >= budget.columns || plan.bytes + bytes > budget.bytes)) {
+            break;
+        }
+        ++taken;
+        plan.bytes += bytes;
+    }
+    if (fitting > 0) {
+        return boundary_[fitting - 1];
+    }
+    // All above the bucket: none of it comes after the bucket's upper end.
+    constexpr std::uint32_t kAnyColumn = ~std::uint32_t{0};
+    return {.importance = end.bucket == ImportanceBuckets::kNone
+                              ? 0
+                              : ImportanceBuckets::lower_end(end.bucket + 1),
+            .column = kAnyColumn};
 }
 
 }  // namespace relume::engine

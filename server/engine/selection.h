@@ -1,7 +1,10 @@
 // Which differences between lighting and approximation to bring into the image next.
 #pragma once
 
+#include "server/engine/importance_buckets.h"
 #include "server/engine/lighting.h"
+#include "server/engine/plan.h"
+#include "server/engine/ranking.h"
 #include "server/engine/scene.h"
 
 #include <cstdint>
@@ -10,45 +13,40 @@
 
 namespace relume::engine {
 
-// What one image may cost; whichever is reached first ends the selection, which holds at least
-// one column if any differs.
-struct SelectionBudget {
-    std::uint32_t columns = 0;
-    std::uint64_t bytes = 0;
-};
-
 // Reused from image to image so that the steady state allocates nothing. Not thread-safe.
 class Selection {
   public:
-    // Takes the columns of the largest Σ_c (weight(c,j)·(L − L̃)(c,j))², at equal values the
-    // lower index, and orders them by band and index.
+    // Fills the plan, whose bands to reset are given, with the columns of the largest
+    // importance, at equal values the lower index; the first that does not fit into the budget
+    // ends it. Only `places` in Scene::columns_by_band, ascending, are looked at: all of them,
+    // or the ranking's shortlist. Linear in their number; only the columns of the bucket in
+    // which the budget ends are put in order.
     void choose(const Scene& scene,
                 const Lighting& lighting,
-                std::span<const float> weights,
-                const SelectionBudget& budget);
-
-    [[nodiscard]] std::span<const ColumnChange> changes() const { return changes_; }
-    // Of all columns that differ, chosen or not.
-    [[nodiscard]] std::uint32_t differing_columns() const {
-        return static_cast<std::uint32_t>(candidates_.size());
-    }
-    [[nodiscard]] std::uint64_t differing_bytes() const { return differing_bytes_; }
-    [[nodiscard]] std::uint64_t chosen_bytes() const { return chosen_bytes_; }
+                const Ranking& ranking,
+                std::span<const std::uint32_t> places,
+                const SelectionBudget& budget,
+                Plan& plan);
 
   private:
+    // A column that differs, and its importance.
     struct Candidate {
         float importance;
         std::uint32_t column;
+
+        [[nodiscard]] bool comes_before(const Candidate& other) const {
+            return importance != other.importance ? importance > other.importance
+                                                  : column < other.column;
+        }
     };
 
-    void gather(const Scene& scene, const Lighting& lighting, std::span<const float> weights);
-    [[nodiscard]] std::size_t take_most_important(const Scene& scene,
-                                                  const SelectionBudget& budget);
+    [[nodiscard]] Candidate last_within(const Scene& scene,
+                                        const SelectionBudget& budget,
+                                        Plan& plan);
 
     std::vector<Candidate> candidates_;
-    std::vector<ColumnChange> changes_;
-    std::uint64_t differing_bytes_ = 0;
-    std::uint64_t chosen_bytes_ = 0;
+    std::vector<Candidate> boundary_;
+    ImportanceBuckets buckets_;
 };
 
 }  // namespace relume::engine

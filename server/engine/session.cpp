@@ -40,6 +40,7 @@ Session::Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy)
     : scene_(std::move(scene)),
       strategy_(strategy),
       lighting_(*scene_),
+      planner_(*scene_),
       images_(*scene_),
       error_(*scene_),
       full_product_(*scene_) {}
@@ -63,41 +64,41 @@ bool Session::at_rest(const wire::Budget& budget) const {
 StepReport Session::advance(const wire::Budget& budget) {
     StepReport report;
     if (!at_rest(budget)) {
-        const bool rests = !lighting_is_new_;
-        if (lighting_is_new_) {
-            begin_new_lighting(report);
-        }
-        if (rests && full_product_is_next(budget)) {
+        if (!lighting_is_new_ && full_product_is_next(budget)) {
             advance_full_product(budget, report);
         } else {
-            advance_incrementally(budget, report);
+            carry_out(next_plan(selection_budget(budget)), report);
         }
     }
-    report.remaining = exact_ ? 0 : remaining_;
-    report.exact = exact_;
-    report.stated_error = stated_error();
+    state(report);
     return report;
 }
 
-void Session::begin_new_lighting(StepReport& report) {
+StepReport Session::advance_incrementally(const SelectionBudget& budget) {
+    StepReport report;
+    if (!exact_) {
+        carry_out(next_plan(budget), report);
+    }
+    state(report);
+    return report;
+}
+
+void Session::state(StepReport& report) const {
+    report.remaining = exact_ ? 0 : remaining_;
+    report.exact = exact_;
+    report.stated_error = stated_error();
+}
+
+const Plan& Session::next_plan(const SelectionBudget& budget) {
+    if (!lighting_is_new_) {
+        return planner_.go_on(lighting_, strategy_, budget);
+    }
     const Stopwatch stopwatch;
     lighting_is_new_ = false;
     error_.set_target(lighting_.target());
-    if (strategy_.method == wire::Method::pbi) {
-        report.bands_reset = lighting_.bands_to_reset();
-    } else if (strategy_.method == wire::Method::nwa) {
-        // Every image of the non-linear approximation starts from nothing [Ng03 §4].
-        report.bands_reset = (1U << scene_->band_count()) - 1;
-    }
-    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
-        if (((report.bands_reset >> band) & 1U) != 0) {
-            lighting_.reset_band(band);
-        }
-    }
-    if (report.bands_reset != 0) {
-        error_.set_approximation(lighting_.approximation());
-    }
+    const Plan& plan = planner_.begin(lighting_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
+    return plan;
 }
 
 SelectionBudget Session::selection_budget(const wire::Budget& budget) const {
@@ -108,21 +109,18 @@ SelectionBudget Session::selection_budget(const wire::Budget& budget) const {
             .bytes = cost_.bytes_within(budget.milliseconds.value_or(0))};
 }
 
-void Session::advance_incrementally(const wire::Budget& budget, StepReport& report) {
-    selection_.choose(*scene_, lighting_, scene_->weights(strategy_.priority),
-                      selection_budget(budget));
-    const auto changes = selection_.changes();
+void Session::carry_out(const Plan& plan, StepReport& report) {
     const Stopwatch stopwatch;
-    images_.update(report.bands_reset, changes);
-    cost_.record_columns(selection_.chosen_bytes(), stopwatch.milliseconds());
-    for (const ColumnChange& change : changes) {
-        lighting_.apply(change.column);
-    }
-    error_.change_approximation(changes);
-    remaining_ = selection_.differing_columns() - static_cast<std::uint32_t>(changes.size());
-    report.applied = static_cast<std::uint32_t>(changes.size());
-    report.bytes_touched += selection_.chosen_bytes();
-    report.image_changed = report.bands_reset != 0 || !changes.empty();
+    images_.update(plan.bands_to_reset, plan.changes);
+    cost_.record_columns(plan.bytes, stopwatch.milliseconds());
+    lighting_.apply(plan);
+    error_.apply(plan);
+    planner_.apply(plan);
+    remaining_ = plan.remaining_columns();
+    report.applied = static_cast<std::uint32_t>(plan.changes.size());
+    report.bands_reset = plan.bands_to_reset;
+    report.bytes_touched += plan.bytes;
+    report.image_changed = plan.bands_to_reset != 0 || !plan.changes.empty();
     remove_drift(report);
 }
 
@@ -171,6 +169,7 @@ void Session::advance_full_product(const wire::Budget& budget, StepReport& repor
     remaining_ = 0;
     lighting_.apply_all();
     error_.approximation_is_target();
+    planner_.approximation_is_target();
     exact_ = true;
     report.image_changed = true;
 }

@@ -7,8 +7,8 @@
 #include "server/engine/error_estimate.h"
 #include "server/engine/full_product.h"
 #include "server/engine/lighting.h"
+#include "server/engine/planner.h"
 #include "server/engine/scene.h"
-#include "server/engine/selection.h"
 
 #include <cstdint>
 #include <memory>
@@ -47,6 +47,10 @@ class Session {
     // history. Costs nothing when exact.
     StepReport advance(const wire::Budget& budget);
 
+    // One image's worth of the method alone, under a budget of columns and bytes: what
+    // `advance` does before it turns to the full product.
+    StepReport advance_incrementally(const SelectionBudget& budget);
+
     // True when `advance` has nothing left to do under this budget: exact, or the target error
     // is met.
     [[nodiscard]] bool at_rest(const wire::Budget& budget) const;
@@ -66,8 +70,11 @@ class Session {
 
   private:
     void write_block(std::uint32_t block, std::span<float> rgb) const;
-    void begin_new_lighting(StepReport& report);
-    void advance_incrementally(const wire::Budget& budget, StepReport& report);
+    // Chooses; the approximation and the image stay as they are.
+    [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);
+    // Brings image, approximation and estimates to where the plan leads.
+    void carry_out(const Plan& plan, StepReport& report);
+    void state(StepReport& report) const;
     void advance_full_product(const wire::Budget& budget, StepReport& report);
     [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
     [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
@@ -77,10 +84,10 @@ class Session {
     std::shared_ptr<const Scene> scene_;
     wire::Strategy strategy_;
     Lighting lighting_;
+    Planner planner_;
     BandImages images_;
     ErrorEstimate error_;
     CostModel cost_;
-    Selection selection_;
     FullProduct full_product_;
     std::uint32_t remaining_ = 0;
     bool lighting_is_new_ = false;

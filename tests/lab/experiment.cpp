@@ -39,9 +39,7 @@ Record measure(Contestant& contestant,
     const auto start = std::chrono::steady_clock::now();
     contestant.session.set_lighting(lighting);
     const engine::StepReport step =
-        contestant.session.advance({.milliseconds = std::nullopt,
-                                    .coefficients = contestant.method.coefficients,
-                                    .target_error = 0});
+        contestant.session.advance_incrementally(contestant.method.budget);
     const auto end = std::chrono::steady_clock::now();
     contestant.session.write_image(image);
     const auto width = contestant.session.scene().image().width;

@@ -47,6 +47,7 @@ LightingSequence slow_fast_slow(const LightingSources& sources) {
                 "one turn about the vertical in 100 images, speed as sin^2, "
                 "then 50 images of rest",
             .images = 150,
+            .rests_from = 100,
             .rig = [sources](std::uint32_t image) {
                 return turned(sources, slow_fast_slow_angle(image));
             }};
@@ -58,6 +59,7 @@ LightingSequence moving_light(const LightingSources& sources) {
                 "a light of 2 degrees radius crosses the sky over a dim environment, "
                 "over face edges, then 25 images of rest",
             .images = 100,
+            .rests_from = 75,
             .rig = [sources](std::uint32_t image) {
                 const float t = static_cast<float>(std::min(image, 75U)) / 75;
                 const float angle = kPi * (0.1F + 0.8F * t);
@@ -72,6 +74,7 @@ LightingSequence switching(const LightingSources& sources) {
     return {.name = "switching",
             .description = "three lights of radiance 3000 switched on and off every 10 images",
             .images = 120,
+            .rests_from = 120,
             .rig = [sources](std::uint32_t image) {
                 light::LightRig rig = turned(sources, 0);
                 const std::uint32_t phase = image / 10;
@@ -89,6 +92,7 @@ LightingSequence random_edits(const LightingSources& sources) {
     return {.name = "random-edits",
             .description = "every few images a jump to a random rotation, gain and light",
             .images = 120,
+            .rests_from = 120,
             .rig = [sources](std::uint32_t image) {
                 std::mt19937_64 random(sources.seed * 1000 + image / 4);
                 std::uniform_real_distribution<float> uniform(0, 1);

@@ -15,6 +15,8 @@ struct LightingSequence {
     std::string name;
     std::string description;
     std::uint32_t images = 0;
+    std::uint32_t rests_from =
+        0;  // image from which the light rests; `images` if it never does
     // Light of image i; a function of i alone.
     std::function<light::LightRig(std::uint32_t)> rig;
 };

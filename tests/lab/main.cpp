@@ -31,36 +31,50 @@ void add_run_command(CLI::App& app, RunOptions& options) {
     run->add_option("--environment", options.environment, "HDR map")->required();
     run->add_option("--sequence", options.sequence, "what the light does")
         ->check(CLI::IsMember(lab::sequence_names()));
-    run->add_option("--methods", options.methods,
-                    "METHOD-COEFFICIENTS[-PRIORITY], separated by commas")
+    run->add_option(
+           "--methods", options.methods,
+           "METHOD-BUDGET[-PRIORITY], separated by commas; a budget in coefficients (30) or "
+           "bytes (400kB)")
         ->delimiter(',');
     run->add_option("--seed", options.seed, "seed of random sequences");
     run->add_option("-o,--output", options.output,
                     "folder for records.csv, error.svg, error.png");
 }
 
-// Means of the moving and the resting part, for people.
+// For people: means while the light moves, and what is left some images after it rests.
 void print_summary(const std::vector<lab::Method>& methods,
+                   const lab::LightingSequence& sequence,
                    const std::vector<lab::Record>& records) {
-    fmt::print("{:<20} {:>10} {:>10} {:>10} {:>12}\n", "method", "mean L2", "last L2",
-               "mean H1", "us per image");
+    constexpr std::uint32_t kSoon = 5;
+    constexpr std::uint32_t kLater = 25;
+    fmt::print("{:<26} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "method", "L2 moving",
+               "H1 moving", "rest +5", "rest +25", "last", "kB/image", "us/image");
     for (const lab::Method& method : methods) {
         double l2 = 0;
         double h1 = 0;
+        double bytes = 0;
         double microseconds = 0;
+        double soon = 0;
+        double later = 0;
         double last = 0;
-        double count = 0;
         for (const lab::Record& record : records) {
-            if (record.method == method.label()) {
+            if (record.method != method.label()) {
+                continue;
+            }
+            if (record.image < sequence.rests_from) {
                 l2 += record.error.l2;
                 h1 += record.error.h1;
+                bytes += static_cast<double>(record.bytes_touched);
                 microseconds += record.microseconds;
-                last = record.error.l2;
-                count += 1;
             }
+            soon = record.image == sequence.rests_from + kSoon ? record.error.l2 : soon;
+            later = record.image == sequence.rests_from + kLater ? record.error.l2 : later;
+            last = record.error.l2;
         }
-        fmt::print("{:<20} {:>10.5f} {:>10.5f} {:>10.5f} {:>12.0f}\n", method.label(),
-                   l2 / count, last, h1 / count, microseconds / count);
+        const double count = sequence.rests_from;
+        fmt::print("{:<26} {:>9.4f} {:>9.4f} {:>9.2e} {:>9.2e} {:>9.2e} {:>9.0f} {:>8.0f}\n",
+                   method.label(), l2 / count, h1 / count, soon, later, last,
+                   bytes / count / 1000, microseconds / count);
     }
 }
 
@@ -89,7 +103,7 @@ void run(const RunOptions& options) {
         fmt::format("{}, {}, {}", std::filesystem::path(options.transport).stem().string(),
                     std::filesystem::path(options.environment).stem().string(), sequence.name);
     lab::draw_error_chart(output / "error", title, records);
-    print_summary(methods, records);
+    print_summary(methods, sequence, records);
 }
 
 }  // namespace

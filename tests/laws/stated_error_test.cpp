@@ -35,9 +35,10 @@ struct Tally {
 TEST(StatedError, HoldsOverAllSequencesMethodsAndMaps) {
     const auto scene = test_scene();
     const std::vector<Method> methods{
-        method_from_text("nwa-100-area"), method_from_text("bi-30-transport"),
-        method_from_text("pbi-30-area"), method_from_text("pbi-30-transport"),
-        method_from_text("pbi-200-none")};
+        method_from_text("nwa-100-area"),       method_from_text("bi-30-transport"),
+        method_from_text("pbi-30-area"),        method_from_text("pbi-30-transport"),
+        method_from_text("pbi-200-none"),       method_from_text("guarded-30-benefit"),
+        method_from_text("guarded-1MB-benefit")};
     Tally all;
     for (const char* map : {"sky-noon", "studio-softboxes"}) {
         const auto environment = std::make_shared<const light::PrefilteredEnvironment>(

@@ -37,7 +37,8 @@ transport::Manifest tiny_manifest(const TinyTransportOptions& options) {
     manifest.fingerprint = options.seed;
     manifest.image = {.width = options.width, .height = options.height};
     manifest.face_resolution = options.face_resolution;
-    manifest.sketch_rows = 256;
+    manifest.stating_rows = 256;
+    manifest.choosing_rows = 64;
     manifest.colour.channels = options.channels;
     if (options.channels == 1) {
         manifest.colour.matrix = {{{1}, {1}, {1}}};

@@ -32,8 +32,8 @@ export class StrategyPanel {
         tone: "filmic" as Tone,
         background: "environment" as BackgroundMode,
         colour: "#000000",
-        method: "pbi" as Method,
-        priority: "transport" as Priority,
+        method: "guarded" as Method,
+        priority: "benefit" as Priority,
         budget: "milliseconds" as BudgetKind,
         milliseconds: kDefaultMilliseconds,
         coefficients: kDefaultCoefficients,
@@ -109,6 +109,7 @@ export class StrategyPanel {
         folder
             .addBinding(model, "method", {
                 options: {
+                    guarded: "guarded",
                     "per-band incremental": "pbi",
                     incremental: "bi",
                     "non-linear": "nwa",
@@ -117,7 +118,12 @@ export class StrategyPanel {
             .on("change", () => this.apply({ strategy: { method: model.method } }));
         folder
             .addBinding(model, "priority", {
-                options: { transport: "transport", area: "area", magnitude: "none" },
+                options: {
+                    "benefit per byte": "benefit",
+                    transport: "transport",
+                    area: "area",
+                    magnitude: "none",
+                },
             })
             .on("change", () => this.apply({ strategy: { priority: model.priority } }));
         folder

@@ -11,7 +11,7 @@ function stateWith(gain: number): RoomState {
         rotation: { quaternion: [1, 0, 0, 0] },
         lights: {},
         background: { mode: "environment", colour: [0, 0, 0] },
-        strategy: { method: "pbi", priority: "transport" },
+        strategy: { method: "guarded", priority: "benefit" },
         budget: { milliseconds: 8, target_error: 0 },
         display: { exposure_stops: 0, tone: "filmic" },
     };

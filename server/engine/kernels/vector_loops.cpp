@@ -13,23 +13,66 @@ namespace relume::engine::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void add_scaled_loop(const std::int16_t* HWY_RESTRICT values,
-                     float weight,
-                     std::size_t count,
-                     float* HWY_RESTRICT sums) {
-    const hn::ScalableTag<float> df;
+// Four vectors of sums stay in registers while all rows go by.
+template <typename Float>
+HWY_INLINE void add_rows_of(const std::int16_t* HWY_RESTRICT table,
+                            const WeightedRow* HWY_RESTRICT rows,
+                            std::size_t row_count,
+                            std::size_t count,
+                            Float* HWY_RESTRICT sums) {
+    const hn::ScalableTag<Float> df;
     const hn::Rebind<std::int32_t, decltype(df)> d32;
     const hn::Rebind<std::int16_t, decltype(df)> d16;
-    const auto w = hn::Set(df, weight);
     const std::size_t lanes = hn::Lanes(df);
+    const auto values = [&](std::size_t at) HWY_ATTR {
+        const auto integers = hn::PromoteTo(d32, hn::LoadU(d16, table + at));
+        if constexpr (sizeof(Float) == sizeof(double)) {
+            return hn::PromoteTo(df, integers);
+        } else {
+            return hn::ConvertTo(df, integers);
+        }
+    };
     std::size_t i = 0;
-    for (; i + lanes <= count; i += lanes) {
-        const auto value = hn::ConvertTo(df, hn::PromoteTo(d32, hn::LoadU(d16, values + i)));
-        hn::StoreU(hn::Add(hn::LoadU(df, sums + i), hn::Mul(w, value)), df, sums + i);
+    for (; i + 4 * lanes <= count; i += 4 * lanes) {
+        auto sum0 = hn::LoadU(df, sums + i);
+        auto sum1 = hn::LoadU(df, sums + i + lanes);
+        auto sum2 = hn::LoadU(df, sums + i + 2 * lanes);
+        auto sum3 = hn::LoadU(df, sums + i + 3 * lanes);
+        for (std::size_t row = 0; row < row_count; ++row) {
+            const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
+            const std::size_t first = rows[row].first + i;
+            sum0 = hn::Add(sum0, hn::Mul(weight, values(first)));
+            sum1 = hn::Add(sum1, hn::Mul(weight, values(first + lanes)));
+            sum2 = hn::Add(sum2, hn::Mul(weight, values(first + 2 * lanes)));
+            sum3 = hn::Add(sum3, hn::Mul(weight, values(first + 3 * lanes)));
+        }
+        hn::StoreU(sum0, df, sums + i);
+        hn::StoreU(sum1, df, sums + i + lanes);
+        hn::StoreU(sum2, df, sums + i + 2 * lanes);
+        hn::StoreU(sum3, df, sums + i + 3 * lanes);
     }
     for (; i < count; ++i) {
-        sums[i] += weight * static_cast<float>(values[i]);
+        for (std::size_t row = 0; row < row_count; ++row) {
+            sums[i] += static_cast<Float>(rows[row].weight) *
+                       static_cast<Float>(table[rows[row].first + i]);
+        }
     }
+}
+
+void add_rows_loop(const std::int16_t* HWY_RESTRICT table,
+                   const WeightedRow* HWY_RESTRICT rows,
+                   std::size_t row_count,
+                   std::size_t count,
+                   float* HWY_RESTRICT sums) {
+    add_rows_of(table, rows, row_count, count, sums);
+}
+
+void add_rows_in_double_loop(const std::int16_t* HWY_RESTRICT table,
+                             const WeightedRow* HWY_RESTRICT rows,
+                             std::size_t row_count,
+                             std::size_t count,
+                             double* HWY_RESTRICT sums) {
+    add_rows_of(table, rows, row_count, count, sums);
 }
 
 double squared_norm_loop(const float* HWY_RESTRICT values, std::size_t count) {
@@ -58,12 +101,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace relume::engine {
 
-HWY_EXPORT(add_scaled_loop);
+HWY_EXPORT(add_rows_loop);
+HWY_EXPORT(add_rows_in_double_loop);
 HWY_EXPORT(squared_norm_loop);
 
-void add_scaled(std::span<const std::int16_t> values, float weight, std::span<float> sums) {
+void add_rows(std::span<const std::int16_t> table,
+              std::span<const WeightedRow> rows,
+              std::span<float> sums) {
     apply_forced_target();
-    HWY_DYNAMIC_DISPATCH(add_scaled_loop)(values.data(), weight, values.size(), sums.data());
+    HWY_DYNAMIC_DISPATCH(add_rows_loop)
+    (table.data(), rows.data(), rows.size(), sums.size(), sums.data());
+}
+
+void add_rows(std::span<const std::int16_t> table,
+              std::span<const WeightedRow> rows,
+              std::span<double> sums) {
+    apply_forced_target();
+    HWY_DYNAMIC_DISPATCH(add_rows_in_double_loop)
+    (table.data(), rows.data(), rows.size(), sums.size(), sums.data());
 }
 
 double squared_norm(std::span<const float> values) {

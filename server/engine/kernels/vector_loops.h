@@ -7,8 +7,20 @@
 
 namespace relume::engine {
 
-// sums[i] += weight·values[i].
-void add_scaled(std::span<const std::int16_t> values, float weight, std::span<float> sums);
+// A row of values somewhere in a table, and what it is multiplied with.
+struct WeightedRow {
+    std::size_t first = 0;  // index of its first value
+    float weight = 0;
+};
+
+// sums[i] += Σ_rows weight·table[first + i], each sum in the order of the rows, every product
+// rounded before it is added: the same bits on every instruction set.
+void add_rows(std::span<const std::int16_t> table,
+              std::span<const WeightedRow> rows,
+              std::span<float> sums);
+void add_rows(std::span<const std::int16_t> table,
+              std::span<const WeightedRow> rows,
+              std::span<double> sums);
 
 // Σ values[i]², summed in runs of float precision; only used where three digits will do.
 [[nodiscard]] double squared_norm(std::span<const float> values);

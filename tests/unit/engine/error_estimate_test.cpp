@@ -51,16 +51,45 @@ TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
     anew.set_target(target);
     std::vector<float> approximation(target.size());
     for (std::size_t j = 0; j < scene.coefficient_count(); j += 3) {
-        ColumnChange change{.column = static_cast<std::uint32_t>(j)};
+        Plan plan;
+        ColumnChange& change =
+            plan.changes.emplace_back(ColumnChange{.column = static_cast<std::uint32_t>(j)});
         for (std::size_t c = 0; c < transport::kColours; ++c) {
             const std::size_t i = c * scene.coefficient_count() + j;
             change.amount[c] = target[i];
             approximation[i] = target[i];
         }
-        changed.change_approximation({&change, 1});
+        changed.apply(plan);
     }
     anew.set_approximation(approximation);
     EXPECT_NEAR(changed.relative_l2(), anew.relative_l2(), 1e-5 * anew.relative_l2());
+}
+
+TEST(ErrorEstimate, ForgetsABandThatIsReset) {
+    const TinyScene tiny;
+    const Scene& scene = *tiny.scene();
+    const std::size_t count = scene.coefficient_count();
+    const auto target = test::random_lighting(8, 4);
+    // In the second band a light of 10⁶ that is then taken away.
+    auto bright = target;
+    auto without = target;
+    for (std::size_t i = 0; i < target.size(); ++i) {
+        if (scene.bands()[i % count] == 1) {
+            bright[i] = 1e6F;
+            without[i] = 0;
+        }
+    }
+    ErrorEstimate reset(scene);
+    ErrorEstimate anew(scene);
+    reset.set_target(target);
+    anew.set_target(target);
+    reset.set_approximation(bright);
+    EXPECT_GT(reset.relative_l2(), 100);
+    Plan plan;
+    plan.bands_to_reset = 1U << 1;
+    reset.apply(plan);
+    anew.set_approximation(without);
+    EXPECT_NEAR(reset.relative_l2(), anew.relative_l2(), 1e-5 * anew.relative_l2());
 }
 
 TEST(ErrorEstimate, KnowsNothingAndBlack) {

@@ -18,7 +18,17 @@ class SelectionTest : public testing::TestWithParam<wire::Priority> {
     TinyScene tiny_;
     const Scene& scene_ = *tiny_.scene();
     Lighting lighting_{scene_};
+    Ranking ranking_;
     Selection selection_;
+
+    // The plan for these resets.
+    [[nodiscard]] Plan chosen(const SelectionBudget& budget, std::uint32_t bands_to_reset = 0) {
+        Plan plan;
+        plan.bands_to_reset = bands_to_reset;
+        ranking_.rank(scene_, lighting_, scene_.weights(GetParam()));
+        selection_.choose(scene_, lighting_, ranking_, scene_.places(), budget, plan);
+        return plan;
+    }
 
     [[nodiscard]] double importance(std::size_t j) const {
         const auto weights = scene_.weights(GetParam());
@@ -40,8 +50,8 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
     }
     std::sort(all.rbegin(), all.rend());
     for (const std::uint32_t columns : {1U, 30U, 64U, 65U, 300U}) {
-        selection_.choose(scene_, lighting_, scene_.weights(GetParam()), {columns, kAnyBytes});
-        const auto changes = selection_.changes();
+        const Plan plan = chosen({columns, kAnyBytes});
+        const auto& changes = plan.changes;
         ASSERT_EQ(changes.size(), columns);
         for (const ColumnChange& change : changes) {
             EXPECT_GE(importance(change.column), all[columns - 1] * (1 - 1e-5));
@@ -53,29 +63,145 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
     }
 }
 
+TEST(Benefit, IsTheEnergyAColumnAddsPerByte) {
+    const TinyScene tiny;
+    const auto& transport = tiny.transport();
+    const auto weights = tiny.scene()->weights(wire::Priority::benefit);
+    for (std::size_t j = 0; j < transport.column_count(); ++j) {
+        const double weight = weights[j];
+        EXPECT_NEAR(weight * weight * transport.column_bytes(j), transport.energy(j, 0),
+                    1e-5 * transport.energy(j, 0));
+    }
+}
+
+// At equal bytes no other priority promises to bring more energy into the image.
+TEST(Benefit, BringsTheMostEnergyForItsBytes) {
+    const TinyScene tiny;
+    const Scene& scene = *tiny.scene();
+    Lighting lighting(scene);
+    Ranking ranking;
+    Selection selection;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        lighting.set_target(test::random_lighting(scene.face_resolution(), seed));
+        const auto energy_within = [&](wire::Priority priority) {
+            Plan plan;
+            ranking.rank(scene, lighting, scene.weights(priority));
+            selection.choose(scene, lighting, ranking, scene.places(),
+                             {~0U, scene.transport().total_bytes() / 8}, plan);
+            double energy = 0;
+            for (const ColumnChange& change : plan.changes) {
+                for (std::uint32_t c = 0; c < transport::kColours; ++c) {
+                    energy += double{scene.transport().energy(change.column, c)} *
+                              change.amount[c] * change.amount[c];
+                }
+            }
+            return energy;
+        };
+        const double most = energy_within(wire::Priority::benefit);
+        for (const auto priority :
+             {wire::Priority::area, wire::Priority::none, wire::Priority::transport}) {
+            EXPECT_GT(most, energy_within(priority) * 0.99) << wire::name_from(priority);
+        }
+    }
+}
+
 TEST_P(SelectionTest, StaysWithinTheBytesButTakesOne) {
     lighting_.set_target(test::random_lighting(scene_.face_resolution(), 6));
     const std::uint64_t budget = scene_.transport().total_bytes() / 10;
-    selection_.choose(scene_, lighting_, scene_.weights(GetParam()), {~0U, budget});
-    EXPECT_LE(selection_.chosen_bytes(), budget);
-    EXPECT_GT(selection_.chosen_bytes(), budget / 2);
-    selection_.choose(scene_, lighting_, scene_.weights(GetParam()), {~0U, 0});
-    EXPECT_EQ(selection_.changes().size(), 1U);
+    const Plan within = chosen({~0U, budget});
+    EXPECT_LE(within.bytes, budget);
+    EXPECT_GT(within.bytes, budget / 2);
+    std::uint64_t bytes = 0;
+    for (const ColumnChange& change : within.changes) {
+        bytes += scene_.transport().column_bytes(change.column);
+    }
+    EXPECT_EQ(within.bytes, bytes);
+    EXPECT_EQ(chosen({~0U, 0}).changes.size(), 1U);
+    const Plan all = chosen({~0U, kAnyBytes});
+    EXPECT_EQ(all.changes.size(), all.differing_columns);
+    EXPECT_EQ(all.remaining_columns(), 0U);
 }
 
 TEST_P(SelectionTest, EqualLightingHasNoDifferences) {
     lighting_.set_target(test::random_lighting(scene_.face_resolution(), 7));
     lighting_.apply_all();
-    selection_.choose(scene_, lighting_, scene_.weights(GetParam()), {30, kAnyBytes});
-    EXPECT_TRUE(selection_.changes().empty());
-    EXPECT_EQ(selection_.differing_bytes(), 0U);
+    const Plan plan = chosen({30, kAnyBytes});
+    EXPECT_TRUE(plan.changes.empty());
+    EXPECT_EQ(plan.differing_columns, 0U);
+}
+
+// A plan with resets is the plan of a lighting in which those bands are black.
+TEST_P(SelectionTest, ResetsAreWeighedAsIfCarriedOut) {
+    const auto before = test::random_lighting(scene_.face_resolution(), 8);
+    const auto after = test::random_lighting(scene_.face_resolution(), 9);
+    for (std::uint32_t mask = 0; mask < 1U << scene_.band_count(); ++mask) {
+        lighting_.set_target(before);
+        lighting_.apply_all();
+        lighting_.set_target(after);
+        const Plan foreseen = chosen({40, kAnyBytes}, mask);
+        Plan resets_alone;
+        resets_alone.bands_to_reset = mask;
+        lighting_.apply(resets_alone);
+        const Plan carried_out = chosen({40, kAnyBytes});
+        ASSERT_EQ(foreseen.changes.size(), carried_out.changes.size());
+        for (std::size_t i = 0; i < foreseen.changes.size(); ++i) {
+            EXPECT_EQ(foreseen.changes[i].column, carried_out.changes[i].column);
+            EXPECT_EQ(foreseen.changes[i].amount, carried_out.changes[i].amount);
+        }
+        EXPECT_EQ(foreseen.bytes, carried_out.bytes);
+        EXPECT_EQ(foreseen.differing_columns, carried_out.differing_columns);
+    }
+}
+
+// Whatever begins anew, what the shortlist leaves out would not have been chosen.
+TEST_P(SelectionTest, TheShortlistHoldsWhatIsChosenOfAll) {
+    const std::uint64_t all_bytes = scene_.transport().total_bytes();
+    lighting_.set_target(test::random_lighting(scene_.face_resolution(), 10));
+    lighting_.apply_all();
+    lighting_.set_target(test::random_lighting(scene_.face_resolution(), 11));
+    for (const SelectionBudget& budget : {SelectionBudget{1, kAnyBytes},
+                                          {20, kAnyBytes},
+                                          {~0U, all_bytes / 30},
+                                          {100, all_bytes / 10},
+                                          {~0U, 0},
+                                          {~0U, kAnyBytes}}) {
+        for (std::uint32_t mask = 0; mask < 1U << scene_.band_count(); ++mask) {
+            const Plan of_all = chosen(budget, mask);
+            std::vector<std::uint32_t> places;
+            ranking_.shortlist(scene_, budget, places);
+            Plan of_shortlist;
+            of_shortlist.bands_to_reset = mask;
+            selection_.choose(scene_, lighting_, ranking_, places, budget, of_shortlist);
+            ASSERT_EQ(of_shortlist.changes.size(), of_all.changes.size());
+            for (std::size_t i = 0; i < of_all.changes.size(); ++i) {
+                EXPECT_EQ(of_shortlist.changes[i].column, of_all.changes[i].column);
+            }
+            EXPECT_EQ(of_shortlist.bytes, of_all.bytes);
+        }
+    }
+}
+
+// Lighting at the ends of what floats hold is ranked, not mistaken for equal.
+TEST_P(SelectionTest, RanksWhatCannotBeSquared) {
+    std::vector<float> huge(scene_.coefficient_count() * transport::kColours, 3e38F);
+    lighting_.set_target(huge);
+    lighting_.apply_all();
+    for (float& value : huge) {
+        value = -value;
+    }
+    huge[5] = 1e-38F;
+    lighting_.set_target(huge);
+    const Plan plan = chosen({30, kAnyBytes});
+    EXPECT_EQ(plan.changes.size(), 30U);
+    EXPECT_EQ(plan.differing_columns, scene_.coefficient_count());
 }
 
 INSTANTIATE_TEST_SUITE_P(Priorities,
                          SelectionTest,
                          testing::Values(wire::Priority::area,
                                          wire::Priority::none,
-                                         wire::Priority::transport));
+                                         wire::Priority::transport,
+                                         wire::Priority::benefit));
 
 }  // namespace
 }  // namespace relume::engine

@@ -46,8 +46,9 @@ const TinyScene& scene_of(std::uint32_t channels) {
 }
 
 Strategy arbitrary_strategy() {
-    return {.method = *rc::gen::element(Method::nwa, Method::bi, Method::pbi),
-            .priority = *rc::gen::element(Priority::area, Priority::none, Priority::transport)};
+    return {.method = *rc::gen::element(Method::nwa, Method::bi, Method::pbi, Method::guarded),
+            .priority = *rc::gen::element(Priority::area, Priority::none, Priority::transport,
+                                          Priority::benefit)};
 }
 
 // Whatever was edited before, in whatever steps, under whatever methods: at rest the image is
@@ -110,7 +111,7 @@ TEST(Session, NonLinearApproximationForgetsTheImageBefore) {
 // The incremental methods keep what they have: the second image of a resting light is the
 // product of what has been applied.
 TEST(Session, ShowsTheProductOfItsApproximation) {
-    for (const Method method : {Method::nwa, Method::bi, Method::pbi}) {
+    for (const Method method : {Method::nwa, Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(3);
         Session session(tiny.scene(), {.method = method, .priority = Priority::transport});
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -142,7 +143,7 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
 
 // DESIGN §7.4: a light of 10⁵ comes and goes, and nothing of it stays.
 TEST(Session, ABrightLightLeavesNothingBehindWhileEditsGoOn) {
-    for (const Method method : {Method::bi, Method::pbi}) {
+    for (const Method method : {Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(1);
         Session session(tiny.scene(), {.method = method, .priority = Priority::transport});
         const auto dim = test::random_lighting(8, 3, 0);

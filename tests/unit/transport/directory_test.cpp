@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -15,6 +16,15 @@ namespace {
 std::string contents(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double squared_norm(const Sketch& sketch, std::size_t column, std::uint32_t colour) {
+    double sum = 0;
+    for (const std::int16_t value : sketch.values(column, colour)) {
+        const double scaled = double{sketch.scale(column, colour)} * value;
+        sum += scaled * scaled;
+    }
+    return sum;
 }
 
 class Directory : public testing::TestWithParam<std::uint32_t> {
@@ -44,7 +54,7 @@ TEST_P(Directory, TwoBakesOfOneInputGiveIdenticalBytes) {
     }
 }
 
-TEST_P(Directory, EnergiesAndSketchAreThoseOfTheStoredColumns) {
+TEST_P(Directory, EnergiesAndSketchesAreThoseOfTheStoredColumns) {
     test::write_tiny_transport(path_, options_);
     const auto transport = Transport::open(path_);
     const std::size_t columns = transport->column_count();
@@ -60,15 +70,40 @@ TEST_P(Directory, EnergiesAndSketchAreThoseOfTheStoredColumns) {
                 energy += sums[i] * sums[i] * double{tint[i]} * double{tint[i]};
             }
             EXPECT_NEAR(transport->energy(j, c), energy, 1e-5 * energy);
-            double sketched = 0;
-            const double scale = transport->sketch_scale(j, c);
-            for (const std::int16_t value : transport->sketch(j, c)) {
-                sketched += scale * value * scale * value;
+            // Relative standard deviation of one column's estimate is √(2/rows).
+            for (const Sketch* sketch :
+                 {&transport->stating_sketch(), &transport->choosing_sketch()}) {
+                EXPECT_NEAR(squared_norm(*sketch, j, c), energy,
+                            6 * std::sqrt(2.0 / sketch->rows()) * energy);
             }
-            // Relative standard deviation of one column's estimate is √(2/256) = 0.09.
-            EXPECT_NEAR(sketched, energy, 0.55 * energy);
         }
     }
+}
+
+// What is chosen by one sketch says nothing about the noise of the other: over many columns
+// their deviations from the true energy are uncorrelated.
+TEST_P(Directory, TheTwoSketchesAreIndependent) {
+    test::write_tiny_transport(path_, options_);
+    const auto transport = Transport::open(path_);
+    double products = 0;
+    double stating_squares = 0;
+    double choosing_squares = 0;
+    double count = 0;
+    for (std::size_t j = 0; j < transport->column_count(); ++j) {
+        const double energy = transport->energy(j, 0);
+        if (energy > 0) {
+            const double stating = squared_norm(transport->stating_sketch(), j, 0) / energy - 1;
+            const double choosing =
+                squared_norm(transport->choosing_sketch(), j, 0) / energy - 1;
+            products += stating * choosing;
+            stating_squares += stating * stating;
+            choosing_squares += choosing * choosing;
+            count += 1;
+        }
+    }
+    EXPECT_GT(count, 100);
+    EXPECT_LT(std::abs(products) / std::sqrt(stating_squares * choosing_squares),
+              5 / std::sqrt(count));
 }
 
 TEST_P(Directory, AWriterKnowsItsOwnShardsOnly) {

@@ -13,7 +13,8 @@ Manifest sample() {
     manifest.generator = "test";
     manifest.image = {.width = 33, .height = 16};
     manifest.face_resolution = 8;
-    manifest.sketch_rows = 64;
+    manifest.stating_rows = 64;
+    manifest.choosing_rows = 32;
     manifest.colour.matrix = {{{1}, {0.5F}, {0.25F}}};
     manifest.columns = {.file = "columns.bin", .bytes = 5, .checksum = 6};
     manifest.receivers = {.file = "receivers.bin", .bytes = 7, .checksum = 8};
@@ -78,7 +79,13 @@ TEST(Manifest, RefusesEveryWrongValue) {
         },
         [](auto& m) { m["colour"]["matrix"][0][0] = "x"; },
         [](auto& m) { m["blocks"] = 4; },
-        [](auto& m) { m["sketch"]["rows"] = 100000; },
+        [](auto& m) { m["sketch"]["stating_rows"] = 100000; },
+        [](auto& m) { m["sketch"]["stating_rows"] = 15; },
+        [](auto& m) { m["sketch"].erase("stating_rows"); },
+        [](auto& m) { m["sketch"]["choosing_rows"] = 1025; },
+        [](auto& m) { m["sketch"]["choosing_rows"] = 0; },
+        [](auto& m) { m["sketch"]["choosing_rows"] = "64"; },
+        [](auto& m) { m["sketch"].erase("choosing_rows"); },
         [](auto& m) { m["files"]["columns"]["file"] = "../columns.bin"; },
         [](auto& m) { m["files"]["columns"]["file"] = "/etc/passwd"; },
         [](auto& m) { m["files"]["columns"]["file"] = ""; },

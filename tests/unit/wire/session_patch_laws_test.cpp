@@ -104,7 +104,10 @@ json valid_patch(const SessionState& state) {
             {"mode", *rc::gen::element<std::string>("environment", "colour", "transparent")}};
     }
     if (chance()) {
-        patch["strategy"] = {{"method", *rc::gen::element<std::string>("nwa", "bi", "pbi")}};
+        patch["strategy"] = {
+            {"method", *rc::gen::element<std::string>("nwa", "bi", "pbi", "guarded")},
+            {"priority",
+             *rc::gen::element<std::string>("area", "none", "transport", "benefit")}};
     }
     if (chance()) {
         patch["budget"] = chance() ? json{{"coefficients", *rc::gen::inRange(1, 393217)}}

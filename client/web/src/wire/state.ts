@@ -24,8 +24,8 @@ export interface AreaLight {
 }
 
 export type BackgroundMode = "environment" | "colour" | "transparent";
-export type Method = "nwa" | "bi" | "pbi";
-export type Priority = "area" | "none" | "transport";
+export type Method = "nwa" | "bi" | "pbi" | "guarded";
+export type Priority = "area" | "none" | "transport" | "benefit";
 export type Tone = "filmic" | "linear";
 
 export interface DisplayState {

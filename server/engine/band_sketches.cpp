@@ -1,0 +1,111 @@
+#include "server/engine/band_sketches.h"
+
+#include "server/engine/kernels/vector_loops.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace relume::engine {
+namespace {
+
+using transport::kColours;
+using transport::Sketch;
+
+// Adds the columns `column_at(0 … count-1)` of one colour, weighted by `amount_of(i)`.
+template <typename ColumnAt, typename AmountOf, typename Float>
+void add_colour(const Sketch& sketch,
+                std::uint32_t colour,
+                std::size_t count,
+                const ColumnAt& column_at,
+                const AmountOf& amount_of,
+                std::span<Float> sums) {
+    thread_local std::vector<WeightedRow> rows;
+    rows.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t column = column_at(i);
+        const float weight = amount_of(i) * sketch.scale(column, colour);
+        if (weight != 0) {
+            rows.push_back({.first = sketch.first_value(column, colour), .weight = weight});
+        }
+    }
+    add_rows(sketch.table(), rows, sums);
+}
+
+template <typename Float>
+void add_changes(const Sketch& sketch,
+                 std::span<const ColumnChange> changes,
+                 std::span<Float> sums) {
+    for (std::uint32_t c = 0; c < kColours; ++c) {
+        add_colour(
+            sketch, c, changes.size(), [&](std::size_t i) { return changes[i].column; },
+            [&](std::size_t i) { return changes[i].amount[c]; },
+            sums.subspan(c * std::size_t{sketch.rows()}, sketch.rows()));
+    }
+}
+
+}  // namespace
+
+void add_sketch(const Sketch& sketch,
+                std::span<const ColumnChange> changes,
+                std::span<float> sums) {
+    add_changes(sketch, changes, sums);
+}
+
+void add_sketch(const Sketch& sketch,
+                std::span<const ColumnChange> changes,
+                std::span<double> sums) {
+    add_changes(sketch, changes, sums);
+}
+
+BandSketches::BandSketches(const Scene& scene, const Sketch& sketch)
+    : scene_(&scene),
+      sketch_(&sketch),
+      size_(kColours * std::size_t{sketch.rows()}),
+      bands_(scene.band_count() * size_),
+      partial_(scene.band_chunks().size() * size_) {}
+
+void BandSketches::set(std::span<const float> lighting) {
+    const std::span<const BandChunk> chunks = scene_->band_chunks();
+    const std::size_t count = scene_->coefficient_count();
+    const std::size_t rows = sketch_->rows();
+    std::fill(partial_.begin(), partial_.end(), 0.0F);
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
+        const auto columns = scene_->columns_by_band().subspan(
+            chunks[chunk].first, chunks[chunk].last - chunks[chunk].first);
+        for (std::uint32_t c = 0; c < kColours; ++c) {
+            add_colour(
+                *sketch_, c, columns.size(), [&](std::size_t i) { return columns[i]; },
+                [&](std::size_t i) { return lighting[c * count + columns[i]]; },
+                std::span(partial_).subspan(chunk * size_ + c * rows, rows));
+        }
+    });
+    std::fill(bands_.begin(), bands_.end(), 0.0);
+    for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+        const std::span<const float> part = std::span(partial_).subspan(chunk * size_, size_);
+        double* band = &bands_[chunks[chunk].band * size_];
+        for (std::size_t i = 0; i < size_; ++i) {
+            band[i] += double{part[i]};
+        }
+    }
+}
+
+void BandSketches::apply(const Plan& plan) {
+    for (std::uint32_t b = 0; b < scene_->band_count(); ++b) {
+        const std::span<double> sketch = std::span(bands_).subspan(b * size_, size_);
+        if (plan.resets(b)) {
+            std::fill(sketch.begin(), sketch.end(), 0.0);
+        }
+        add_sketch(*sketch_, changes_of_band(plan.changes, scene_->bands(), b), sketch);
+    }
+}
+
+std::vector<double> BandSketches::sum() const {
+    std::vector<double> total(size_);
+    for (std::size_t i = 0; i < bands_.size(); ++i) {
+        total[i % size_] += bands_[i];
+    }
+    return total;
+}
+
+}  // namespace relume::engine

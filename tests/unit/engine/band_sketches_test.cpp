@@ -1,0 +1,90 @@
+#include "server/engine/band_sketches.h"
+
+#include "tests/support/random_lighting.h"
+#include "tests/unit/engine/engine_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace relume::engine {
+namespace {
+
+// Σ_j scale·value·L over the columns of one band, in the plainest way.
+std::vector<double> plain_sketch(const Scene& scene,
+                                 const transport::Sketch& sketch,
+                                 std::span<const float> lighting,
+                                 std::uint32_t band) {
+    std::vector<double> sums(transport::kColours * std::size_t{sketch.rows()});
+    for (std::size_t j = 0; j < scene.coefficient_count(); ++j) {
+        for (std::uint32_t c = 0; scene.bands()[j] == band && c < transport::kColours; ++c) {
+            const double weight = double{lighting[c * scene.coefficient_count() + j]} *
+                                  double{sketch.scale(j, c)};
+            for (std::size_t r = 0; r < sketch.rows(); ++r) {
+                sums[c * sketch.rows() + r] += weight * sketch.values(j, c)[r];
+            }
+        }
+    }
+    return sums;
+}
+
+double norm(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) {
+        sum += value * value;
+    }
+    return std::sqrt(sum);
+}
+
+void expect_near(std::span<const double> found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i], expected[i], 1e-6 * norm(expected));
+    }
+}
+
+TEST(BandSketches, HoldEveryBandOfALighting) {
+    const TinyScene tiny({.channels = 3});
+    const Scene& scene = *tiny.scene();
+    const auto lighting = test::random_lighting(8, 1);
+    for (const transport::Sketch* sketch :
+         {&tiny.transport().stating_sketch(), &tiny.transport().choosing_sketch()}) {
+        BandSketches bands(scene, *sketch);
+        bands.set(lighting);
+        std::vector<double> total(transport::kColours * std::size_t{sketch->rows()});
+        for (std::uint32_t b = 0; b < scene.band_count(); ++b) {
+            const auto expected = plain_sketch(scene, *sketch, lighting, b);
+            expect_near(bands.band(b), expected);
+            for (std::size_t i = 0; i < total.size(); ++i) {
+                total[i] += expected[i];
+            }
+        }
+        expect_near(bands.sum(), total);
+    }
+}
+
+// However bright what came and went, updates in double precision leave nothing of it.
+TEST(BandSketches, KeepNothingOfALightThatIsGone) {
+    const TinyScene tiny;
+    const Scene& scene = *tiny.scene();
+    const transport::Sketch& sketch = tiny.transport().choosing_sketch();
+    const auto lighting = test::random_lighting(8, 2);
+    BandSketches bands(scene, sketch);
+    bands.set(lighting);
+    const auto before = bands.sum();
+    Plan on;
+    on.changes = {{.column = 7, .amount = {1e5F, 2e5F, 3e5F}}};
+    Plan off;
+    off.changes = {{.column = 7, .amount = {-1e5F, -2e5F, -3e5F}}};
+    for (int i = 0; i < 1000; ++i) {
+        bands.apply(on);
+        bands.apply(off);
+    }
+    const auto after = bands.sum();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_NEAR(after[i], before[i], 1e-7 * norm(before));
+    }
+}
+
+}  // namespace
+}  // namespace relume::engine
