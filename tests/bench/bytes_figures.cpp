@@ -17,21 +17,32 @@ struct DemoScene {
 };
 constexpr DemoScene kScenes[] = {{"mesh100k", 0}, {"table", 1}, {"box", 1}, {"thin", 1}};
 
-// The coarsest of our steps whose error under natural light is no larger than the peer's, in L2
-// and in H1, found by going down from far too coarse by eighths of an octave.
-StoredTiles at_equal_error(const FloatTiles& tiles,
+enum class Lights : std::size_t { natural, natural_and_sun };
+
+// Peer's bytes over ours at the coarsest of our steps whose error is no larger than the peer's,
+// in L2 and in H1, found by going down from far too coarse by eighths of an octave.
+double gain_at_equal_error(const FloatTiles& tiles,
                            const TestLights& lights,
                            const StoredTiles& peer,
+                           Lights counted,
                            nlohmann::json& measured) {
     constexpr int kCoarsest = 24;
     constexpr int kFinest = -64;
     for (int eighth = kCoarsest; eighth >= kFinest; --eighth) {
         const float scale = std::exp2(static_cast<float>(eighth) / 8);
         const StoredTiles ours = store_as_relume(tiles, lights, scale);
-        if (ours.errors[0].l2 <= peer.errors[0].l2 && ours.errors[0].h1 <= peer.errors[0].h1) {
+        bool as_good = true;
+        for (std::size_t kind = 0; kind <= static_cast<std::size_t>(counted); ++kind) {
+            as_good = as_good && ours.errors[kind].l2 <= peer.errors[kind].l2 &&
+                      ours.errors[kind].h1 <= peer.errors[kind].h1;
+        }
+        if (as_good) {
+            const double gain =
+                static_cast<double>(peer.bytes) / static_cast<double>(ours.bytes);
             measured = to_json(ours);
             measured["step_scale"] = scale;
-            return ours;
+            measured["gain"] = gain;
+            return gain;
         }
     }
     throw std::runtime_error("no step comes as close as the peer");
@@ -59,9 +70,11 @@ double gain_for(const DemoScene& scene, bool quick, nlohmann::json& measured) {
         const StoredTiles peer = store_as_ng03(tiles, lights, range);
         nlohmann::json& comparison = measured[name];
         comparison["ng03"] = to_json(peer);
-        const StoredTiles ours = at_equal_error(tiles, lights, peer, comparison["ours"]);
-        const double gain = static_cast<double>(peer.bytes) / static_cast<double>(ours.bytes);
-        comparison["gain"] = gain;
+        const double gain = gain_at_equal_error(tiles, lights, peer, Lights::natural,
+                                                comparison["equal_under_natural_light"]);
+        // Reported: we spend our bytes for natural light, not for a bare sun.
+        static_cast<void>(gain_at_equal_error(tiles, lights, peer, Lights::natural_and_sun,
+                                              comparison["equal_under_the_sun_too"]));
         least = std::min(least, gain);
     }
     return least;

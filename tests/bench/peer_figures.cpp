@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -34,7 +35,7 @@ double relative_l2(std::span<const float> image, std::span<const float> referenc
     return std::sqrt(difference / norm);
 }
 
-// What all terms share: the drag is longer with fewer terms only in what it leaves out.
+// Both hold the columns that a drag touches, and no others.
 struct Peers {
     EigenColumns eigen;
     Ng03Columns ng03;
@@ -71,6 +72,30 @@ void check_images(const engine::Scene& scene,
     for (std::size_t i = 0; i < eigen.size(); ++i) {
         check(fmt::format("eigen {}", name_from(kEigenLayouts[i])), eigen[i]->sums());
     }
+}
+
+// Of the columns of the drag: what they are stored as explains much of the times.
+nlohmann::json bytes_by_encoding(const engine::Scene& scene,
+                                 std::span<const std::uint32_t> columns) {
+    std::array<std::uint64_t, transport::kCellTagCount> bytes{};
+    for (const auto& shard : scene.transport().shards()) {
+        for (const std::uint32_t j : columns) {
+            for (std::uint32_t k = 0; k < scene.transport().channel_count(); ++k) {
+                const transport::SegmentView segment = shard.segment(j, k);
+                const std::uint8_t* cell = segment.cells;
+                for (std::uint32_t b = 0; !segment.empty() && b < shard.block_count(); ++b) {
+                    const std::size_t size = transport::cell_bytes(segment.tag(b), cell);
+                    bytes[static_cast<std::size_t>(segment.tag(b))] += size;
+                    cell += size;
+                }
+            }
+        }
+    }
+    nlohmann::json by_name;
+    for (std::size_t tag = 0; tag < bytes.size(); ++tag) {
+        by_name[transport::kCellTagNames[tag]] = bytes[tag];
+    }
+    return by_name;
 }
 
 // Eigen's fastest layout here, tried before anything counts.
@@ -135,6 +160,7 @@ void measure(Workbench& workbench, Results& results) {
         nlohmann::json& measured = results.measured("peers")[std::to_string(terms)];
         const Peers peers{.eigen = {*scene, columns}, .ng03 = {*scene, columns}};
         measured["columns"] = columns.size();
+        measured["bytes_by_encoding"] = bytes_by_encoding(*scene, columns);
         measured["nonzeros"] = peers.eigen.nonzeros();
         measured["ng03_entries"] = peers.ng03.entries();
         measured["ng03_extra_entries"] = peers.ng03.extra_entries();

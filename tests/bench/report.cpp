@@ -34,9 +34,10 @@ nlohmann::json context_of(Workbench& workbench, const Results& results) {
         context[fmt::format("read_gb_per_s_{}t", threads)] =
             workbench.read_bandwidth().bytes_per_second(threads) / 1e9;
     }
-    const auto scene = workbench.scene();
-    context["scene"] = scene->transport().directory().filename().string();
-    context["transport_bytes"] = scene->transport().total_bytes();
+    if (const auto scene = workbench.scene_in_use()) {
+        context["scene"] = scene->transport().directory().filename().string();
+        context["transport_bytes"] = scene->transport().total_bytes();
+    }
     return context;
 }
 

@@ -30,6 +30,8 @@ class Workbench {
 
     // The scene of most figures; baked when it is missing and none was named.
     [[nodiscard]] std::shared_ptr<const engine::Scene> scene();
+    // Null until a figure asked for it.
+    [[nodiscard]] std::shared_ptr<const engine::Scene> scene_in_use() const { return scene_; }
     // Every cell of it is dense8, and it is far larger than the last-level cache.
     [[nodiscard]] std::shared_ptr<const engine::Scene> dense_scene();
     // Small, so that a million edits take a minute.
