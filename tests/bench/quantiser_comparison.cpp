@@ -14,7 +14,6 @@ namespace {
 
 using transport::kBlockSize;
 using transport::kTileSide;
-using transport::QuantisedValue;
 
 struct ErrorSums {
     double error = 0;
@@ -32,6 +31,11 @@ struct TileResult {
 struct StoredTile {
     std::uint64_t bytes = 0;
     std::vector<LitPixel> pixels = std::vector<LitPixel>(kBlockSize);
+};
+
+struct QuantisedValue {
+    std::uint32_t column = 0;  // j·K + k
+    std::int32_t value = 0;
 };
 
 // Light of a pixel from its integers.
@@ -57,6 +61,30 @@ void light_pixel(const bake::Quantisation& quantisation,
             for (std::size_t k = 0; k < channels; ++k) {
                 lit[light][c] += double{pixel.tint[c]} *
                                  double{quantisation.colour.matrix[c][k]} * sums[light][k];
+            }
+        }
+    }
+}
+
+// Light of a pixel from its row as stored, [K][N].
+void light_pixel(const bake::Quantisation& quantisation,
+                 const TestLights& lights,
+                 const FloatTile::Pixel& pixel,
+                 std::span<const float> row,
+                 LitPixel& lit) {
+    const std::uint32_t channels = quantisation.colour.channels;
+    const std::size_t columns = row.size() / channels;
+    for (std::size_t light = 0; light < TestLights::kCount; ++light) {
+        lit[light] = {};
+        for (std::uint32_t k = 0; k < channels; ++k) {
+            const float* values = &row[k * columns];
+            double sum = 0;
+            for (std::size_t j = 0; j < columns; ++j) {
+                sum += double{values[j]} * double{lights.coefficients[light][j]};
+            }
+            for (std::size_t c = 0; c < 3; ++c) {
+                lit[light][c] +=
+                    double{pixel.tint[c]} * double{quantisation.colour.matrix[c][k]} * sum;
             }
         }
     }
@@ -209,31 +237,29 @@ StoredTiles store_as_relume(const FloatTiles& tiles,
                             float step_scale) {
     const bake::Quantisation& quantisation = tiles.quantisation;
     const std::uint32_t channels = quantisation.colour.channels;
-    std::vector<std::vector<float>> inverse_steps(channels);
-    for (std::size_t segment = 0; segment < quantisation.steps.size(); ++segment) {
-        inverse_steps[segment % channels].push_back(1 /
-                                                    (step_scale * quantisation.steps[segment]));
+    std::vector<float> steps = quantisation.steps;
+    for (float& step : steps) {
+        step *= step_scale;
     }
     return store_all(tiles, [&](const FloatTile& tile) {
-        StoredTile stored;
-        bake::BlockEncoder encoder;
+        bake::BlockRows rows(steps.size() / channels, channels);
+        bake::StoredRows kept;
         for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
             const FloatTile::Pixel& pixel = tile.pixels[slot];
-            if (!pixel.covered) {
-                continue;
+            for (std::uint32_t k = 0; pixel.covered && k < channels; ++k) {
+                rows.set(slot, k, pixel.channel[k]);
             }
-            auto& row = encoder.row(slot);
-            for (std::uint32_t k = 0; k < channels; ++k) {
-                transport::quantise_row(pixel.channel[k], inverse_steps[k],
-                                        std::uint64_t{tile.block} * kBlockSize + slot, k,
-                                        channels, row);
+            if (pixel.covered) {
+                kept.slots.push_back(slot);
             }
-            light_pixel(
-                quantisation, lights, pixel, row,
-                [&](std::uint32_t segment) { return step_scale * quantisation.steps[segment]; },
-                stored.pixels[slot]);
         }
-        stored.bytes = bytes_of_block(encoder.encode(quantisation.steps.size()));
+        StoredTile stored;
+        stored.bytes = bytes_of_block(bake::encode_block(rows, steps, kept));
+        for (std::size_t i = 0; i < kept.slots.size(); ++i) {
+            const std::uint32_t slot = kept.slots[i];
+            light_pixel(quantisation, lights, tile.pixels[slot], kept.rows[i],
+                        stored.pixels[slot]);
+        }
         return stored;
     });
 }
