@@ -22,8 +22,11 @@ endif()
 # The same source must give the same bits on every machine: no fused multiply-add by whim.
 target_compile_options(relume_build_flags INTERFACE -ffp-contract=off)
 if(RELUME_SANITIZE)
+    # The vptr check opens pipes to see what memory may be read, which the sandbox of
+    # relume-decode forbids.
     target_compile_options(relume_build_flags INTERFACE
-        -fsanitize=${RELUME_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+        -fsanitize=${RELUME_SANITIZE} -fno-sanitize=vptr -fno-omit-frame-pointer
+        -fno-sanitize-recover=all)
     target_link_options(relume_build_flags INTERFACE -fsanitize=${RELUME_SANITIZE})
 endif()
 if(RELUME_FUZZ)
