@@ -51,6 +51,14 @@ HWY_INLINE void add_rows_of(const std::int16_t* HWY_RESTRICT table,
         hn::StoreU(sum2, df, sums + i + 2 * lanes);
         hn::StoreU(sum3, df, sums + i + 3 * lanes);
     }
+    for (; i + lanes <= count; i += lanes) {
+        auto sum = hn::LoadU(df, sums + i);
+        for (std::size_t row = 0; row < row_count; ++row) {
+            const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
+            sum = hn::Add(sum, hn::Mul(weight, values(rows[row].first + i)));
+        }
+        hn::StoreU(sum, df, sums + i);
+    }
     for (; i < count; ++i) {
         for (std::size_t row = 0; row < row_count; ++row) {
             sums[i] += static_cast<Float>(rows[row].weight) *

@@ -25,7 +25,7 @@ TYPED_TEST(AddRows, GivesTheBitsOfThePlainLoopOnEveryTarget) {
     for (std::int16_t& entry : table) {
         entry = static_cast<std::int16_t>(value(random));
     }
-    for (const std::size_t length : {1UL, 15UL, 16UL, 64UL, 67UL, 256UL, 301UL}) {
+    for (const std::size_t length : {1UL, 15UL, 16UL, 64UL, 67UL, 256UL, 32UL, 301UL}) {
         for (const std::size_t count : {0UL, 1UL, 2UL, 50UL}) {
             std::vector<WeightedRow> rows;
             for (std::size_t i = 0; i < count; ++i) {
