@@ -29,6 +29,8 @@ class Planner {
     void apply(const Plan& plan) { guard_.apply(plan); }
     // L̃ is L.
     void approximation_is_target() { guard_.approximation_is_target(); }
+    // L̃ has changed in ways nobody told.
+    void approximation_is_unknown() { guard_.forget(); }
 
   private:
     const Scene* scene_;

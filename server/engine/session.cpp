@@ -64,7 +64,8 @@ bool Session::at_rest(const wire::Budget& budget) const {
 StepReport Session::advance(const wire::Budget& budget) {
     StepReport report;
     if (!at_rest(budget)) {
-        if (!lighting_is_new_ && full_product_is_next(budget)) {
+        if (lighting_is_new_ ? full_product_fits_one_image(budget)
+                             : full_product_is_next(budget)) {
             advance_full_product(budget, report);
         } else {
             carry_out(next_plan(selection_budget(budget)), report);
@@ -95,6 +96,11 @@ const Plan& Session::next_plan(const SelectionBudget& budget) {
     }
     const Stopwatch stopwatch;
     lighting_is_new_ = false;
+    if (estimates_are_stale_) {
+        error_.set_approximation(lighting_.approximation());
+        planner_.approximation_is_unknown();
+        estimates_are_stale_ = false;
+    }
     error_.set_target(lighting_.target());
     const Plan& plan = planner_.begin(lighting_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
@@ -153,23 +159,37 @@ bool Session::full_product_is_next(const wire::Budget& budget) const {
     return scene_->transport().total_bytes() <= kImagesForFullProduct * bytes_per_image(budget);
 }
 
+// Exact images while dragging: nothing is then chosen or estimated.
+bool Session::full_product_fits_one_image(const wire::Budget& budget) const {
+    return !budget.coefficients && scene_->transport().total_bytes() <= bytes_per_image(budget);
+}
+
 void Session::advance_full_product(const wire::Budget& budget, StepReport& report) {
     if (!full_product_.running()) {
         full_product_.start(lighting_.target());
     }
     const Stopwatch stopwatch;
-    const std::uint64_t bytes = full_product_.advance(bytes_per_image(budget));
+    std::uint64_t bytes = 0;
+    do {
+        bytes += full_product_.advance(bytes_per_image(budget));
+    } while (lighting_is_new_ && full_product_.running());
     cost_.record_columns(bytes, stopwatch.milliseconds());
     report.bytes_touched += bytes;
     if (full_product_.running()) {
         return;
     }
     full_product_.exchange(images_);
-    report.applied = remaining_;
+    if (lighting_is_new_) {
+        estimates_are_stale_ = true;
+        report.applied = static_cast<std::uint32_t>(scene_->coefficient_count());
+    } else {
+        error_.approximation_is_target();
+        planner_.approximation_is_target();
+        report.applied = remaining_;
+    }
+    lighting_is_new_ = false;
     remaining_ = 0;
     lighting_.apply_all();
-    error_.approximation_is_target();
-    planner_.approximation_is_target();
     exact_ = true;
     report.image_changed = true;
 }

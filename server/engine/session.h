@@ -44,7 +44,8 @@ class Session {
     // differences between target and approximation within the budget. While the lighting rests:
     // more of them, and then (at once, where it takes only a few images' time) the *full
     // product* in slices of the budget, after which the image is exact and has forgotten its
-    // history. Costs nothing when exact.
+    // history. Where the full product fits into one image's milliseconds, every image is
+    // exact. Costs nothing when exact.
     StepReport advance(const wire::Budget& budget);
 
     // One image's worth of the method alone, under a budget of columns and bytes: what
@@ -77,6 +78,7 @@ class Session {
     void state(StepReport& report) const;
     void advance_full_product(const wire::Budget& budget, StepReport& report);
     [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
+    [[nodiscard]] bool full_product_fits_one_image(const wire::Budget& budget) const;
     [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
     [[nodiscard]] SelectionBudget selection_budget(const wire::Budget& budget) const;
     void remove_drift(StepReport& report);
@@ -91,6 +93,8 @@ class Session {
     FullProduct full_product_;
     std::uint32_t remaining_ = 0;
     bool lighting_is_new_ = false;
+    // Error and choosing sketch do not know the approximation: it was made exact without them.
+    bool estimates_are_stale_ = false;
     bool exact_ = true;  // a session begins with no light and a black image
 };
 

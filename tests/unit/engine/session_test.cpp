@@ -233,6 +233,33 @@ TEST(Session, RefusesLightingThatIsNotOne) {
     EXPECT_TRUE(session.exact()) << "unchanged by what was refused";
 }
 
+// Where the whole product fits into one image's time, a drag is exact at every image; what
+// follows with less time states its error as if the sketches had been kept all along.
+TEST(Session, IsExactAtEveryImageWhenThereIsTimeForTheWholeProduct) {
+    const TinyScene& tiny = scene_of(3);
+    const Budget ample{.milliseconds = 1000, .coefficients = std::nullopt, .target_error = 0};
+    Session session(tiny.scene(), {});
+    Session patient(tiny.scene(), {});
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        const auto light = test::random_lighting(8, seed);
+        session.set_lighting(light);
+        const StepReport report = session.advance(ample);
+        EXPECT_TRUE(report.exact);
+        EXPECT_EQ(report.stated_error, 0);
+        patient.set_lighting(light);
+        run_to_rest(patient, coefficients(10));
+        EXPECT_EQ(copy(session.sums()), copy(patient.sums()));
+    }
+    const auto light = test::random_lighting(8, 9);
+    for (Session* each : {&session, &patient}) {
+        each->set_lighting(light);
+        each->advance(coefficients(10));
+    }
+    EXPECT_FALSE(session.exact());
+    EXPECT_NEAR(session.stated_error(), patient.stated_error(), 1e-6);
+    EXPECT_EQ(copy(session.sums()), copy(patient.sums()));
+}
+
 TEST(Session, WritesTheTintedImageInPixelOrder) {
     const TinyScene& tiny = scene_of(3);
     Session session(tiny.scene(), {});
