@@ -22,9 +22,6 @@ class EditClock {
     [[nodiscard]] std::vector<double> image_received(std::uint64_t revision,
                                                      Clock::time_point when);
 
-    // Edits sent and neither refused nor shown.
-    [[nodiscard]] std::size_t pending() const { return pending_.size(); }
-
   private:
     struct Pending {
         std::uint64_t id;

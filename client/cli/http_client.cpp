@@ -91,8 +91,12 @@ nlohmann::json json_from_answer(const HttpAnswer& answer, const std::string& req
     std::string detail;
     if (body.is_object() && body.contains("error") && body["error"].is_object()) {
         const nlohmann::json& error = body["error"];
-        detail = fmt::format(": {} (found {}, expected {})", error.value("message", ""),
-                             error.value("found", "?"), error.value("expected", "?"));
+        const std::string found = error.value("found", "");
+        detail = ": " + error.value("message", "");
+        if (detail.find(found) == std::string::npos) {
+            detail +=
+                fmt::format(" (found {}, expected {})", found, error.value("expected", ""));
+        }
     }
     throw ClientError(fmt::format("{}: found HTTP status {}, expected 2xx{}", request,
                                   answer.status, detail));

@@ -43,6 +43,16 @@ std::size_t largest_frame(const wire::SceneSummary& scene) {
     return wire::kMaxServerMessageBytes + planes + planes / 128;
 }
 
+// What the close frame says, or what its code means.
+std::string text_from(const websocket::close_reason& close) {
+    if (!close.reason.empty()) {
+        return close.reason.c_str();
+    }
+    const auto code = wire::close_code_from_number(close.code);
+    return code ? std::string(wire::reason_from_close_code(*code))
+                : fmt::format("closed with code {}", close.code);
+}
+
 }  // namespace
 
 class Session::Connection : public std::enable_shared_from_this<Connection> {
@@ -159,7 +169,6 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
         } catch (const wire::WireError& refusal) {
             if (refusal.code() != wire::ErrorCode::unknown_type) {
                 end_with({.was_open = open_,
-                          .close_code = 0,
                           .reason = fmt::format("the server sent {}", refusal.what())});
                 return;
             }
@@ -210,7 +219,6 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
         }
         if (queue_.size() == kMaxQueuedMessages) {
             end_with({.was_open = open_,
-                      .close_code = 0,
                       .reason = fmt::format("the server does not take messages: {} wait",
                                             queue_.size())});
             return;
@@ -237,16 +245,10 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
 
     void end(const std::string& doing, error_code error) {
         if (error == websocket::error::closed) {
-            const auto& reason = stream_.reason();
-            end_with({.was_open = open_,
-                      .close_code = reason.code,
-                      .reason = reason.reason.empty()
-                                    ? fmt::format("closed with code {}", reason.code)
-                                    : std::string(reason.reason.c_str())});
+            end_with({.was_open = open_, .reason = text_from(stream_.reason())});
             return;
         }
         end_with({.was_open = open_,
-                  .close_code = 0,
                   .reason = fmt::format("http://{}: {}: {}", options_.server.authority(), doing,
                                         error.message())});
     }

@@ -38,9 +38,8 @@ struct ReceivedImage {
 };
 
 struct SessionEnd {
-    bool was_open = false;         // a snapshot had come
-    std::uint16_t close_code = 0;  // 0 when the connection broke or never came to be
-    std::string reason;            // for people
+    bool was_open = false;  // a snapshot had come
+    std::string reason;     // for people
 };
 
 // What a session tells; all of it from within Session::run's executor, never concurrently.

@@ -5,26 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 
 namespace relume::cli {
-namespace {
 
-double percentile_of_sorted(const std::vector<double>& sorted, double fraction) {
+double percentile(std::span<const double> sorted, double fraction) {
     const double rank = std::ceil(fraction * static_cast<double>(sorted.size()));
     const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
     return sorted[std::min(index, sorted.size() - 1)];
-}
-
-}  // namespace
-
-double percentile(std::vector<double> values, double fraction) {
-    if (values.empty() || !(fraction >= 0 && fraction <= 1)) {
-        throw std::invalid_argument("percentile: expected values and a fraction of 0 … 1");
-    }
-    std::sort(values.begin(), values.end());
-    return percentile_of_sorted(values, fraction);
 }
 
 Spread spread_of(std::vector<double> values) {
@@ -35,8 +23,8 @@ Spread spread_of(std::vector<double> values) {
     const double sum = std::accumulate(values.begin(), values.end(), 0.0);
     return {.count = values.size(),
             .mean = sum / static_cast<double>(values.size()),
-            .p50 = percentile_of_sorted(values, 0.5),
-            .p99 = percentile_of_sorted(values, 0.99),
+            .p50 = percentile(values, 0.5),
+            .p99 = percentile(values, 0.99),
             .highest = values.back()};
 }
 

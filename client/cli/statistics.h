@@ -4,13 +4,14 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace relume::cli {
 
 // The smallest value that at least `fraction` (0 … 1) of all are not above (nearest rank): one
-// that was really measured. Throws std::invalid_argument when there is none.
-[[nodiscard]] double percentile(std::vector<double> values, double fraction);
+// that was really measured. `sorted` ascends and is not empty.
+[[nodiscard]] double percentile(std::span<const double> sorted, double fraction);
 
 struct Spread {
     std::size_t count = 0;

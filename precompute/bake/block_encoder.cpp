@@ -23,11 +23,12 @@ void transpose(const BlockRows& rows,
                std::size_t count,
                ColumnTile& tile) {
     std::array<float, kTileColumns> mean{};
+    const float share = 1 / static_cast<float>(std::max<std::size_t>(rows.present_count(), 1));
     for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
         if (const float* row = rows.row(slot, channel); row != nullptr) {
             for (std::size_t i = 0; i < count; ++i) {
                 tile[i][slot] = row[first + i];
-                mean[i] += row[first + i] / static_cast<float>(rows.present_count());
+                mean[i] += share * row[first + i];
             }
         }
     }

@@ -2,6 +2,7 @@
 
 #include <Imath/ImathMath.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <utility>
@@ -17,6 +18,14 @@ light::AreaLight area_light_from(const wire::AreaLight& light) {
             .angular_radius_radians =
                 static_cast<float>(light.angular_radius_degrees * kRadiansPerDegree),
             .radiance = Imath::V3f(light.radiance * light.tint * light.gain)};
+}
+
+// A quarter of an image's time goes to relighting, however slow the rest is.
+constexpr double kLeastShare = 0.25;
+
+void blend(double& mean, double newest) {
+    constexpr double kNewest = 0.2;
+    mean += kNewest * (newest - mean);
 }
 
 bool same_rig(const wire::SessionState& a, const wire::SessionState& b) {
@@ -80,6 +89,8 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     image_changed_ = true;
     const Clock::duration spent = Clock::now() - begin;
     metrics_.observe_lighting(seconds(spent));
+    blend(lighting_ms_, milliseconds(spent));
+    lighting_is_new_ = true;
     relight_time_ += spent;
     return problems;
 }
@@ -104,7 +115,8 @@ void Relighter::set_rig(const wire::SessionState& state,
 
 void Relighter::advance() {
     const Clock::time_point begin = Clock::now();
-    const engine::StepReport step = session_.advance(state_->budget);
+    const engine::StepReport step = session_.advance(budget_for_relighting());
+    lighting_is_new_ = false;
     const Clock::duration spent = Clock::now() - begin;
     metrics_.count_step(step, seconds(spent));
     relight_time_ += spent;
@@ -114,6 +126,16 @@ void Relighter::advance() {
         composed_ = false;
         image_changed_ = true;
     }
+}
+
+wire::Budget Relighter::budget_for_relighting() const {
+    wire::Budget budget = state_->budget;
+    if (budget.milliseconds) {
+        const double taken = picture_ms_ + (lighting_is_new_ ? lighting_ms_ : 0);
+        budget.milliseconds =
+            std::max(kLeastShare * *budget.milliseconds, *budget.milliseconds - taken);
+    }
+    return budget;
 }
 
 void Relighter::compose_if_changed() {
@@ -137,6 +159,9 @@ SharedImageFrame Relighter::encode(const ImageStamp& stamp,
     frame->bytes.resize(wire::kImageHeaderBytes);
     append_payload(frame->bytes);
     const Clock::duration encode_time = Clock::now() - begin;
+    if (encoding == wire::ImageEncoding::jpeg) {
+        blend(picture_ms_, milliseconds(compose_time_ + encode_time));
+    }
     const transport::TileGrid& image = scene_->engine->image();
     const bool exact = session_.exact();
     frame->header = {

@@ -48,7 +48,8 @@ class Relighter {
     std::vector<wire::ErrorMessage> set_state(const wire::SessionState& state,
                                               const NamedEnvironments& environments);
 
-    // One image's worth of relighting within the state's budget.
+    // One image's worth of relighting: the state's milliseconds less what lighting, composing
+    // and encoding have been taking, so that the image is ready when they are over.
     void advance();
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
@@ -69,6 +70,7 @@ class Relighter {
                                           wire::ImageEncoding encoding,
                                           const AppendPayload& append_payload);
     void compose_if_changed();
+    [[nodiscard]] wire::Budget budget_for_relighting() const;
 
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
@@ -84,6 +86,11 @@ class Relighter {
     std::vector<float> coefficients_;
     std::optional<DisplayTable> display_;
     std::vector<std::uint8_t> codes_;
+
+    // Running means of what is not relighting.
+    double lighting_ms_ = 0;  // of a new state
+    double picture_ms_ = 0;   // composing and encoding
+    bool lighting_is_new_ = false;
 
     bool composed_ = false;
     bool image_changed_ = true;

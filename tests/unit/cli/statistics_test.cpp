@@ -5,26 +5,25 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace relume::cli {
 namespace {
 
 TEST(Statistics, PercentilesAreNearestRank) {
-    EXPECT_EQ(percentile({15, 20, 35, 40, 50}, 0.05), 15);
-    EXPECT_EQ(percentile({50, 40, 35, 20, 15}, 0.30), 20);
-    EXPECT_EQ(percentile({15, 20, 35, 40, 50}, 0.40), 20);
-    EXPECT_EQ(percentile({15, 20, 35, 40, 50}, 0.50), 35);
-    EXPECT_EQ(percentile({15, 20, 35, 40, 50}, 1.0), 50);
-    EXPECT_EQ(percentile({15, 20, 35, 40, 50}, 0.0), 15);
-    EXPECT_EQ(percentile({7}, 0.99), 7);
-    EXPECT_THROW(static_cast<void>(percentile({}, 0.5)), std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(percentile({1}, 1.5)), std::invalid_argument);
+    const std::vector<double> values{15, 20, 35, 40, 50};
+    EXPECT_EQ(percentile(values, 0.0), 15);
+    EXPECT_EQ(percentile(values, 0.05), 15);
+    EXPECT_EQ(percentile(values, 0.30), 20);
+    EXPECT_EQ(percentile(values, 0.40), 20);
+    EXPECT_EQ(percentile(values, 0.50), 35);
+    EXPECT_EQ(percentile(values, 1.0), 50);
+    EXPECT_EQ(percentile(std::vector<double>{7}, 0.99), 7);
 }
 
 RC_GTEST_PROP(Statistics, AtLeastTheFractionIsNotAboveThePercentile, ()) {
     const auto integers = *rc::gen::nonEmpty(rc::gen::arbitrary<std::vector<int>>());
-    const std::vector<double> values(integers.begin(), integers.end());
+    std::vector<double> values(integers.begin(), integers.end());
+    std::sort(values.begin(), values.end());
     const double fraction = *rc::gen::inRange(0, 101) / 100.0;
     const double p = percentile(values, fraction);
     const auto count = static_cast<double>(values.size());
@@ -40,7 +39,7 @@ TEST(Statistics, TheSpreadOfNothingIsNull) {
     nlohmann::json object;
     put_spread(object, "x", spread_of({}));
     EXPECT_TRUE(object.at("x_p50").is_null());
-    put_spread(object, "x", spread_of({1, 2, 3, 10}));
+    put_spread(object, "x", spread_of({10, 2, 3, 1}));
     EXPECT_EQ(object.at("x_p50"), 2);
     EXPECT_EQ(object.at("x_p99"), 10);
     EXPECT_EQ(object.at("x_mean"), 4);
