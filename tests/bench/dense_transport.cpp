@@ -39,7 +39,8 @@ void write_dense_transport(const std::filesystem::path& directory,
     manifest.generator = "relume-bench";
     manifest.image = {.width = size.width, .height = size.height};
     manifest.face_resolution = size.face_resolution;
-    manifest.sketch_rows = transport::kMinSketchRows;
+    manifest.stating_rows = transport::kMinSketchRows;
+    manifest.choosing_rows = transport::kMinSketchRows;
     manifest.colour.matrix = {{{1}, {1}, {1}}};
     const std::uint32_t columns = manifest.column_count();
     const transport::ShardPlan plan{.block_count = manifest.block_count(),
