@@ -3,9 +3,12 @@
 #include "tests/bench/quantiser_comparison.h"
 #include "tests/bench/workbench.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace relume::bench {
@@ -17,35 +20,50 @@ struct DemoScene {
 };
 constexpr DemoScene kScenes[] = {{"mesh100k", 0}, {"table", 1}, {"box", 1}, {"thin", 1}};
 
-enum class Lights : std::size_t { natural, natural_and_sun };
+// How many kinds of light count: natural alone, or suns as well.
+enum class Lights : std::size_t { natural = 1, natural_and_sun = 2 };
+
+bool is_as_good(const StoredTiles& ours, const StoredTiles& peer, Lights counted) {
+    for (std::size_t kind = 0; kind < static_cast<std::size_t>(counted); ++kind) {
+        if (ours.errors[kind].l2 > peer.errors[kind].l2 ||
+            ours.errors[kind].h1 > peer.errors[kind].h1) {
+            return false;
+        }
+    }
+    return true;
+}
 
 // Peer's bytes over ours at the coarsest of our steps whose error is no larger than the peer's,
-// in L2 and in H1, found by going down from far too coarse by eighths of an octave.
+// in L2 and in H1, to an eighth of an octave, by bisection.
 double gain_at_equal_error(const FloatTiles& tiles,
                            const TestLights& lights,
                            const StoredTiles& peer,
                            Lights counted,
                            nlohmann::json& measured) {
-    constexpr int kCoarsest = 24;
-    constexpr int kFinest = -64;
-    for (int eighth = kCoarsest; eighth >= kFinest; --eighth) {
-        const float scale = std::exp2(static_cast<float>(eighth) / 8);
-        const StoredTiles ours = store_as_relume(tiles, lights, scale);
-        bool as_good = true;
-        for (std::size_t kind = 0; kind <= static_cast<std::size_t>(counted); ++kind) {
-            as_good = as_good && ours.errors[kind].l2 <= peer.errors[kind].l2 &&
-                      ours.errors[kind].h1 <= peer.errors[kind].h1;
-        }
-        if (as_good) {
-            const double gain =
-                static_cast<double>(peer.bytes) / static_cast<double>(ours.bytes);
-            measured = to_json(ours);
-            measured["step_scale"] = scale;
-            measured["gain"] = gain;
-            return gain;
+    const auto scale_of = [](int eighth) { return std::exp2(static_cast<float>(eighth) / 8); };
+    int too_coarse = 33;
+    int good_enough = -64;
+    std::optional<StoredTiles> best;
+    while (too_coarse - good_enough > 1) {
+        const int middle = good_enough + (too_coarse - good_enough) / 2;
+        const StoredTiles ours = store_as_relume(tiles, lights, scale_of(middle));
+        if (is_as_good(ours, peer, counted)) {
+            good_enough = middle;
+            best = ours;
+        } else {
+            too_coarse = middle;
         }
     }
-    throw std::runtime_error("no step comes as close as the peer");
+    if (!best) {
+        throw std::runtime_error(
+            fmt::format("no step down to {} of the baked one comes as close as the peer",
+                        scale_of(good_enough)));
+    }
+    const double gain = static_cast<double>(peer.bytes) / static_cast<double>(best->bytes);
+    measured = to_json(*best);
+    measured["step_scale"] = scale_of(good_enough);
+    measured["gain"] = gain;
+    return gain;
 }
 
 // Bytes of the peer over ours; the smaller of both readings of the paper.
@@ -59,7 +77,7 @@ double gain_for(const DemoScene& scene, bool quick, nlohmann::json& measured) {
         parameters.samples = 8;
     }
     const TestLights lights(parameters.face_resolution);
-    const std::uint32_t tiles_each_way = quick ? 2 : 4;
+    const std::uint32_t tiles_each_way = quick ? 2 : 3;
     const FloatTiles tiles =
         sample_tiles(scene.name, parameters, lights, tiles_each_way, tiles_each_way);
     measured["channels"] = tiles.quantisation.colour.channels;

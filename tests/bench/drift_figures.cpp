@@ -36,11 +36,14 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
     return coefficients;
 }
 
-// Error of the sums against what they should be, relative, in the tenth of the covered pixels
-// in which the latter are smallest. Tint is applied to both.
+// Error of the sums against what they should be, both [blocks][3][256] in the basis of the
+// blocks: relative, of the image, in the tenth of the covered pixels in which it is darkest.
 double dark_tenth_error(const engine::Scene& scene,
-                        std::span<const float> sums,
-                        std::span<const double> exact) {
+                        std::span<const float> shown_sums,
+                        std::vector<double> exact) {
+    std::vector<double> shown(shown_sums.begin(), shown_sums.end());
+    test::receivers_from_sums(shown);
+    test::receivers_from_sums(exact);
     struct Pixel {
         double value = 0;
         double error = 0;
@@ -58,7 +61,7 @@ double dark_tenth_error(const engine::Scene& scene,
         for (std::size_t c = 0; c < kColours; ++c) {
             const std::size_t i = first + c * kBlockSize;
             const double value = exact[i] * double{tint[i]};
-            const double error = double{sums[i]} * double{tint[i]} - value;
+            const double error = shown[i] * double{tint[i]} - value;
             pixel.value += value * value;
             pixel.error += error * error;
         }

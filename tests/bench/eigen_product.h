@@ -55,7 +55,7 @@ class EigenProduct {
     ~EigenProduct();
 
     void add(std::span<const engine::ColumnChange> changes);
-    // [blocks][3][256], before tint.
+    // [blocks][3][256], in the basis of the blocks, before tint.
     [[nodiscard]] std::vector<float> sums() const;
 
   private:

@@ -37,39 +37,45 @@ class TileSampler {
     // Tile rows must come in ascending order.
     [[nodiscard]] FloatTile sample(std::uint32_t tile_x, std::uint32_t tile_y) {
         window_.move_to(tile_y * kTileSide, std::min((tile_y + 1) * kTileSide, image_.height));
-        FloatTile tile{.block = tile_y * image_.tiles_x() + tile_x,
+        const std::uint32_t channels = quantisation_.colour.channels;
+        FloatTile tile{.rows = bake::BlockRows(texels_.size(), channels),
                        .pixels = std::vector<FloatTile::Pixel>(transport::kBlockSize)};
+        std::vector<bake::ChannelRow> rows(transport::kBlockSize);
         tbb::parallel_for(std::uint32_t{0}, transport::kBlockSize, [&](std::uint32_t slot) {
             const std::uint32_t x = tile_x * kTileSide + slot % kTileSide;
             const std::uint32_t y = tile_y * kTileSide + slot / kTileSide;
             if (x < image_.width && y < image_.height) {
-                sample_pixel(x, y, tile.pixels[slot]);
+                sample_pixel(x, y, rows[slot], tile.pixels[slot]);
             }
         });
+        for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
+            for (std::uint32_t k = 0; tile.pixels[slot].covered && k < channels; ++k) {
+                tile.rows.set(slot, k, rows[slot].channel[k]);
+            }
+        }
         return tile;
     }
 
   private:
     struct Scratch {
         bake::CoefficientRow row;
-        bake::ChannelRow channels;
         bake::RowBaker::Scratch rows;
     };
 
-    void sample_pixel(std::uint32_t x, std::uint32_t y, FloatTile::Pixel& pixel) {
+    void sample_pixel(std::uint32_t x,
+                      std::uint32_t y,
+                      bake::ChannelRow& channels,
+                      FloatTile::Pixel& pixel) {
         const bake::TracedPixel& traced = window_.pixel(x, y);
         if (traced.view.surfaces.empty()) {
             return;
         }
         Scratch& scratch = scratches_.local();
         rows_.bake(traced, x, y, &pool_, scratch.row, scratch.rows);
-        bake::split_colours(quantisation_.colour, scratch.row, scratch.channels);
+        bake::split_colours(quantisation_.colour, scratch.row, channels);
         pixel.covered = true;
         for (std::size_t c = 0; c < 3; ++c) {
-            pixel.tint[c] = scratch.channels.tint[static_cast<int>(c)];
-        }
-        for (std::uint32_t k = 0; k < quantisation_.colour.channels; ++k) {
-            pixel.channel[k] = scratch.channels.channel[k];
+            pixel.tint[c] = channels.tint[static_cast<int>(c)];
         }
         for (std::size_t light = 0; light < TestLights::kCount; ++light) {
             const std::vector<float>& radiance = lights_.coefficients[light];

@@ -1,6 +1,7 @@
 // Tiles of a scene's transport before quantisation: what two quantisers can be compared on.
 #pragma once
 
+#include "precompute/bake/block_rows.h"
 #include "precompute/bake/parameters.h"
 #include "precompute/bake/pilot.h"
 
@@ -27,12 +28,11 @@ using LitPixel = std::array<std::array<double, 3>, TestLights::kCount>;
 // 16×16 pixels as the bake has them before it quantises.
 struct FloatTile {
     struct Pixel {
-        bool covered = false;  // by the scene; else it holds nothing
+        bool covered = false;  // by the scene; else it has no row
         std::array<float, 3> tint{1, 1, 1};
-        std::array<std::vector<float>, 3> channel;  // [K] of N values
         LitPixel exact{};
     };
-    std::uint32_t block = 0;
+    bake::BlockRows rows;
     std::vector<Pixel> pixels;  // [256], by slot
 };
 

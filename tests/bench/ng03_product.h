@@ -58,7 +58,7 @@ class Ng03Product {
     explicit Ng03Product(const Ng03Columns& columns);
 
     void add(std::span<const engine::ColumnChange> changes);
-    // [blocks][3][256], before tint.
+    // [blocks][3][256], in the basis of the blocks, before tint.
     [[nodiscard]] std::vector<float> sums() const;
 
   private:

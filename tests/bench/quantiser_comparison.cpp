@@ -1,6 +1,7 @@
 #include "tests/bench/quantiser_comparison.h"
 
 #include "precompute/bake/block_encoder.h"
+#include "protocol/transport/receiver_basis.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
@@ -33,61 +34,22 @@ struct StoredTile {
     std::vector<LitPixel> pixels = std::vector<LitPixel>(kBlockSize);
 };
 
-struct QuantisedValue {
-    std::uint32_t column = 0;  // j·K + k
-    std::int32_t value = 0;
-};
+// What the channels of a pixel make of it under each light.
+using LitChannels = std::array<std::array<double, 3>, TestLights::kCount>;
 
-// Light of a pixel from its integers.
-void light_pixel(const bake::Quantisation& quantisation,
-                 const TestLights& lights,
-                 const FloatTile::Pixel& pixel,
-                 std::span<const QuantisedValue> stored,
-                 const std::function<float(std::uint32_t)>& step_of_segment,
-                 LitPixel& lit) {
-    const std::uint32_t channels = quantisation.colour.channels;
-    std::array<std::array<double, 3>, TestLights::kCount> sums{};
-    for (const QuantisedValue& value : stored) {
-        const double amount =
-            double{step_of_segment(value.column)} * static_cast<double>(value.value);
-        for (std::size_t light = 0; light < TestLights::kCount; ++light) {
-            sums[light][value.column % channels] +=
-                amount * double{lights.coefficients[light][value.column / channels]};
-        }
-    }
+LitPixel colours_of(const bake::Quantisation& quantisation,
+                    const FloatTile::Pixel& pixel,
+                    const LitChannels& channels) {
+    LitPixel lit{};
     for (std::size_t light = 0; light < TestLights::kCount; ++light) {
         for (std::size_t c = 0; c < 3; ++c) {
-            lit[light][c] = 0;
-            for (std::size_t k = 0; k < channels; ++k) {
+            for (std::size_t k = 0; k < quantisation.colour.channels; ++k) {
                 lit[light][c] += double{pixel.tint[c]} *
-                                 double{quantisation.colour.matrix[c][k]} * sums[light][k];
+                                 double{quantisation.colour.matrix[c][k]} * channels[light][k];
             }
         }
     }
-}
-
-// Light of a pixel from its row as stored, [K][N].
-void light_pixel(const bake::Quantisation& quantisation,
-                 const TestLights& lights,
-                 const FloatTile::Pixel& pixel,
-                 std::span<const float> row,
-                 LitPixel& lit) {
-    const std::uint32_t channels = quantisation.colour.channels;
-    const std::size_t columns = row.size() / channels;
-    for (std::size_t light = 0; light < TestLights::kCount; ++light) {
-        lit[light] = {};
-        for (std::uint32_t k = 0; k < channels; ++k) {
-            const float* values = &row[k * columns];
-            double sum = 0;
-            for (std::size_t j = 0; j < columns; ++j) {
-                sum += double{values[j]} * double{lights.coefficients[light][j]};
-            }
-            for (std::size_t c = 0; c < 3; ++c) {
-                lit[light][c] +=
-                    double{pixel.tint[c]} * double{quantisation.colour.matrix[c][k]} * sum;
-            }
-        }
-    }
+    return lit;
 }
 
 TileResult errors_of(const FloatTile& tile, const StoredTile& stored) {
@@ -147,12 +109,14 @@ StoredTiles store_all(const FloatTiles& tiles,
 }
 
 // Raises range[j·K + k] to the largest magnitude in the tile.
-void raise_ranges(const FloatTile& tile, std::uint32_t channels, std::vector<float>& range) {
-    for (const FloatTile::Pixel& pixel : tile.pixels) {
-        for (std::uint32_t k = 0; pixel.covered && k < channels; ++k) {
-            for (std::size_t j = 0; j < pixel.channel[k].size(); ++j) {
+void raise_ranges(const FloatTile& tile, std::vector<float>& range) {
+    const std::uint32_t channels = tile.rows.channels();
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        for (std::uint32_t k = 0; tile.pixels[slot].covered && k < channels; ++k) {
+            const float* row = tile.rows.row(slot, k);
+            for (std::size_t j = 0; j < tile.rows.columns(); ++j) {
                 float& largest = range[j * channels + k];
-                largest = std::max(largest, std::abs(pixel.channel[k][j]));
+                largest = std::max(largest, std::abs(row[j]));
             }
         }
     }
@@ -164,34 +128,73 @@ StoredTile store_tile_as_ng03(const FloatTiles& tiles,
                               std::span<const float> range) {
     constexpr float kLevels = 127;
     constexpr std::uint64_t kEntryBytes = 2;
-    const std::uint32_t channels = tiles.quantisation.colour.channels;
+    const std::uint32_t channels = tile.rows.channels();
     StoredTile stored;
-    std::vector<QuantisedValue> values;
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        const FloatTile::Pixel& pixel = tile.pixels[slot];
-        if (!pixel.covered) {
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        if (!tile.pixels[slot].covered) {
             continue;
         }
-        values.clear();
+        LitChannels sums{};
         for (std::uint32_t k = 0; k < channels; ++k) {
-            for (std::size_t j = 0; j < pixel.channel[k].size(); ++j) {
-                const std::size_t segment = j * channels + k;
-                const float value = pixel.channel[k][j];
-                const auto level =
-                    value == 0 ? 0L : std::lround(value / range[segment] * kLevels);
-                if (level != 0) {
-                    values.push_back({.column = static_cast<std::uint32_t>(segment),
-                                      .value = static_cast<std::int32_t>(level)});
+            const float* row = tile.rows.row(slot, k);
+            for (std::size_t j = 0; j < tile.rows.columns(); ++j) {
+                const float step = range[j * channels + k] / kLevels;
+                const float level = row[j] == 0 ? 0.0F : std::round(row[j] / step);
+                if (level == 0) {
+                    continue;
+                }
+                stored.bytes += kEntryBytes;
+                for (std::size_t light = 0; light < TestLights::kCount; ++light) {
+                    sums[light][k] +=
+                        double{level} * double{step} * double{lights.coefficients[light][j]};
                 }
             }
         }
-        stored.bytes += kEntryBytes * values.size();
-        light_pixel(
-            tiles.quantisation, lights, pixel, values,
-            [&](std::uint32_t segment) { return range[segment] / kLevels; },
-            stored.pixels[slot]);
+        stored.pixels[slot] = colours_of(tiles.quantisation, tile.pixels[slot], sums);
     }
     return stored;
+}
+
+// Sums of a block's cells under one light and channel, from the basis of blocks to receivers.
+using BlockSums = std::array<float, kBlockSize>;
+
+void light_block(const bake::Quantisation& quantisation,
+                 const TestLights& lights,
+                 float step_scale,
+                 const FloatTile& tile,
+                 const transport::EncodedBlock& block,
+                 std::vector<LitPixel>& pixels) {
+    const std::uint32_t channels = quantisation.colour.channels;
+    std::vector<std::array<BlockSums, transport::kMaxChannels>> sums(TestLights::kCount);
+    transport::DecodedCell values;
+    for (std::size_t segment = 0; segment < block.segment_count(); ++segment) {
+        if (block.tag(segment) == transport::CellTag::empty) {
+            continue;
+        }
+        transport::decode_cell(block.tag(segment), block.cell(segment).data(), values);
+        const float step = step_scale * quantisation.steps[segment];
+        for (std::size_t light = 0; light < TestLights::kCount; ++light) {
+            const float weight = step * lights.coefficients[light][segment / channels];
+            BlockSums& sum = sums[light][segment % channels];
+            for (std::size_t i = 0; i < kBlockSize; ++i) {
+                sum[i] += weight * values[i];
+            }
+        }
+    }
+    std::vector<LitChannels> lit(kBlockSize);
+    for (std::size_t light = 0; light < TestLights::kCount; ++light) {
+        for (std::uint32_t k = 0; k < channels; ++k) {
+            transport::block_receivers_from_coefficients(sums[light][k]);
+            for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                lit[slot][light][k] = double{sums[light][k][slot]};
+            }
+        }
+    }
+    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+        if (tile.pixels[slot].covered) {
+            pixels[slot] = colours_of(quantisation, tile.pixels[slot], lit[slot]);
+        }
+    }
 }
 
 std::uint64_t bytes_of_block(const transport::EncodedBlock& block) {
@@ -217,17 +220,16 @@ nlohmann::json to_json(const StoredTiles& stored) {
 }
 
 StoredTiles store_as_ng03(const FloatTiles& tiles, const TestLights& lights, Ng03Range range) {
-    const std::uint32_t channels = tiles.quantisation.colour.channels;
     std::vector<float> column_range(tiles.quantisation.steps.size());
     for (const FloatTile& tile : tiles.tiles) {
-        raise_ranges(tile, channels, column_range);
+        raise_ranges(tile, column_range);
     }
     return store_all(tiles, [&](const FloatTile& tile) {
         if (range == Ng03Range::column) {
             return store_tile_as_ng03(tiles, tile, lights, column_range);
         }
         std::vector<float> block_range(column_range.size());
-        raise_ranges(tile, channels, block_range);
+        raise_ranges(tile, block_range);
         return store_tile_as_ng03(tiles, tile, lights, block_range);
     });
 }
@@ -235,31 +237,19 @@ StoredTiles store_as_ng03(const FloatTiles& tiles, const TestLights& lights, Ng0
 StoredTiles store_as_relume(const FloatTiles& tiles,
                             const TestLights& lights,
                             float step_scale) {
-    const bake::Quantisation& quantisation = tiles.quantisation;
-    const std::uint32_t channels = quantisation.colour.channels;
-    std::vector<float> steps = quantisation.steps;
+    std::vector<float> steps = tiles.quantisation.steps;
     for (float& step : steps) {
         step *= step_scale;
     }
     return store_all(tiles, [&](const FloatTile& tile) {
-        bake::BlockRows rows(steps.size() / channels, channels);
-        bake::StoredRows kept;
-        for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
-            const FloatTile::Pixel& pixel = tile.pixels[slot];
-            for (std::uint32_t k = 0; pixel.covered && k < channels; ++k) {
-                rows.set(slot, k, pixel.channel[k]);
-            }
-            if (pixel.covered) {
-                kept.slots.push_back(slot);
-            }
-        }
         StoredTile stored;
-        stored.bytes = bytes_of_block(bake::encode_block(rows, steps, kept));
-        for (std::size_t i = 0; i < kept.slots.size(); ++i) {
-            const std::uint32_t slot = kept.slots[i];
-            light_pixel(quantisation, lights, tile.pixels[slot], kept.rows[i],
-                        stored.pixels[slot]);
+        if (tile.rows.present_count() == 0) {
+            return stored;
         }
+        bake::StoredRows no_rows;
+        const transport::EncodedBlock block = bake::encode_block(tile.rows, steps, no_rows);
+        light_block(tiles.quantisation, lights, step_scale, tile, block, stored.pixels);
+        stored.bytes = bytes_of_block(block);
         return stored;
     });
 }

@@ -29,7 +29,8 @@ class ColumnIndex {
     std::unordered_map<std::uint32_t, std::size_t> positions_;
 };
 
-// Calls `visit(block in shard, slot, integer)` for every non-zero of one segment, in order.
+// Calls `visit(block in shard, place, integer)` for every non-zero of one segment, in order. A
+// place is a coefficient of the block: peers sum in the engine's basis, where there are fewest.
 using VisitValue = std::function<void(std::uint32_t, std::uint32_t, float)>;
 void for_each_value(const transport::ShardReader& shard,
                     std::uint32_t column,
