@@ -2,7 +2,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/engine/kernels/accumulate_simd.cpp"
 #include "server/engine/kernels/accumulate.h"
-#include "server/engine/kernels/bitmap_shuffles.h"
 #include "server/engine/kernels/target.h"
 
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -13,7 +12,8 @@
 #include <cstring>
 #include <memory>
 
-// Must come after highway.h, in a group of its own so that no formatter sorts it.
+// Must come after highway.h, in a group of their own so that no formatter sorts them.
+#include "server/engine/kernels/bitmap_expansion-inl.h"
 #include "server/engine/kernels/cell_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,79 +32,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using transport::CellTag;
-using transport::kBitmapBytes;
 using transport::kBlockSize;
 using transport::kColours;
 
 constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
-
-// Spread packed values to the slots whose bits are set. Read up to 64 bytes beyond the cell: a
-// shard's data has a tail (kShardTailBytes).
-struct BitmapExpansion {
-    void (*bits8)(const std::uint8_t* cell, std::int8_t* values);
-    void (*bits16)(const std::uint8_t* cell, std::int16_t* values);
-};
-
-void expand8_by_table(const std::uint8_t* cell, std::int8_t* values) {
-    const hn::CappedTag<std::uint8_t, 8> d8;
-    auto* out = reinterpret_cast<std::uint8_t*>(values);
-    const std::uint8_t* packed = cell + kBitmapBytes;
-    for (std::size_t byte = 0; byte < kBitmapBytes; ++byte, out += 8) {
-        const std::uint8_t mask = cell[byte];
-        const auto places = hn::LoadU(d8, kBitmapShuffles[mask].data());
-        hn::StoreU(hn::TableLookupBytesOr0(hn::LoadU(d8, packed), places), d8, out);
-        packed += std::popcount(mask);
-    }
-}
-
-void expand16_one_by_one(const std::uint8_t* cell, std::int16_t* values) {
-    std::fill_n(values, kBlockSize, std::int16_t{0});
-    const std::uint8_t* packed = cell + kBitmapBytes;
-    for (std::size_t byte = 0; byte < kBitmapBytes; ++byte, values += 8) {
-        for (unsigned mask = cell[byte]; mask != 0; mask &= mask - 1) {
-            std::memcpy(values + std::countr_zero(mask), packed, sizeof(std::int16_t));
-            packed += sizeof(std::int16_t);
-        }
-    }
-}
-
-#if HWY_TARGET == HWY_AVX3
-// Ice Lake's expansion, which Highway 1.0 has no operation for.
-__attribute__((target("avx512vbmi2"))) void expand8_by_instruction(const std::uint8_t* cell,
-                                                                   std::int8_t* values) {
-    const std::uint8_t* packed = cell + kBitmapBytes;
-    for (std::size_t at = 0; at < kBitmapBytes; at += sizeof(__mmask64), values += 64) {
-        __mmask64 mask = 0;
-        std::memcpy(&mask, cell + at, sizeof(mask));
-        const __m512i run = _mm512_loadu_si512(packed);
-        _mm512_storeu_si512(values, _mm512_maskz_expand_epi8(mask, run));
-        packed += std::popcount(mask);
-    }
-}
-
-__attribute__((target("avx512vbmi2"))) void expand16_by_instruction(const std::uint8_t* cell,
-                                                                    std::int16_t* values) {
-    const std::uint8_t* packed = cell + kBitmapBytes;
-    for (std::size_t at = 0; at < kBitmapBytes; at += sizeof(__mmask32), values += 32) {
-        __mmask32 mask = 0;
-        std::memcpy(&mask, cell + at, sizeof(mask));
-        const __m512i run = _mm512_loadu_si512(packed);
-        _mm512_storeu_si512(values, _mm512_maskz_expand_epi16(mask, run));
-        packed += sizeof(std::int16_t) * static_cast<std::size_t>(std::popcount(mask));
-    }
-}
-
-BitmapExpansion best_expansion() {
-    if (__builtin_cpu_supports("avx512vbmi2") != 0) {
-        return {expand8_by_instruction, expand16_by_instruction};
-    }
-    return {expand8_by_table, expand16_one_by_one};
-}
-#else
-BitmapExpansion best_expansion() {
-    return {expand8_by_table, expand16_one_by_one};
-}
-#endif
 
 // Values that are summed together, each run with its weights.
 template <typename Value>
