@@ -51,6 +51,10 @@ function(relume_program name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE relume_build_flags ${ARG_LINKS})
+    if(RELUME_SANITIZE MATCHES "thread")
+        target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/sanitizers/one_thread.cpp)
+        target_link_libraries(${name} PRIVATE TBB::tbb)
+    endif()
 endfunction()
 
 # What the sanitizer presets build: every test program with label unit.
