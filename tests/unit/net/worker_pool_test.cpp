@@ -68,8 +68,8 @@ void finish(WorkerPool& pool) {
 }
 
 TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
+    Order order;  // outlives what the pool still runs
     WorkerPool pool(1);
-    Order order;
     Gate gate(pool);
     pool.enqueue(order.add('a'), WorkPriority::refinement);
     pool.enqueue(order.add('b'), WorkPriority::edit);
@@ -81,8 +81,8 @@ TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
 }
 
 TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
+    Order order;  // outlives what the pool still runs
     WorkerPool pool(1);
-    Order order;
     Gate gate(pool);
     const auto first = order.add('a');
     const auto second = order.add('b');
@@ -97,8 +97,8 @@ TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
 }
 
 TEST(WorkerPool, EditsDoNotStarveARefinement) {
+    Order order;  // outlives what the pool still runs
     WorkerPool pool(1);
-    Order order;
     Gate gate(pool);
     for (int i = 0; i < 40; ++i) {
         pool.enqueue(order.add('e'), WorkPriority::edit);
