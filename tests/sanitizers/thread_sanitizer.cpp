@@ -12,8 +12,9 @@ const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelis
 
 }  // namespace
 
-// The hook's name is ThreadSanitizer's.
+// The hooks' names are ThreadSanitizer's.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT
+extern "C" const char* __tsan_default_options();       // NOLINT
 
 extern "C" const char* __tsan_default_suppressions() {  // NOLINT
     return "race:libOpenEXR\n"
@@ -21,4 +22,9 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:libOpenImageIO\n"
            "race:libembree3\n"
            "race:libtbb\n";
+}
+
+// relume-decode starts its threads in a fork, beside the sanitizer's own thread.
+extern "C" const char* __tsan_default_options() {  // NOLINT
+    return "die_after_fork=0";
 }
