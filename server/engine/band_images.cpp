@@ -1,6 +1,7 @@
 #include "server/engine/band_images.h"
 
 #include "server/engine/kernels/accumulate.h"
+#include "server/engine/kernels/accumulate_batch.h"
 #include "server/engine/kernels/vector_loops.h"
 
 #include <tbb/parallel_for.h>
@@ -18,27 +19,118 @@ using transport::kColours;
 
 constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
 
-// The segments of the columns in one shard, weighted; replaces the content of `segments`.
-void gather_segments(const transport::Transport& transport,
-                     const transport::ShardReader& shard,
-                     std::span<const ColumnChange> changes,
-                     std::vector<WeightedSegment>& segments) {
-    const transport::ColourModel& colour = transport.manifest().colour;
-    segments.clear();
-    for (const ColumnChange& change : changes) {
-        for (std::uint32_t k = 0; k < colour.channels; ++k) {
-            const transport::SegmentView segment = shard.segment(change.column, k);
-            if (segment.empty()) {
-                continue;
-            }
-            const float step = transport.step(change.column, k);
-            WeightedSegment weighted{.segment = segment, .weights = {}};
-            for (std::size_t c = 0; c < kColours; ++c) {
-                weighted.weights[c] = step * colour.matrix[c][k] * change.amount[c];
-            }
-            segments.push_back(weighted);
+// What of each member's columns lies in one shard and band; one thread's, kept from band to
+// band.
+class SweptSegments {
+  public:
+    static SweptSegments& of_this_thread() {
+        thread_local SweptSegments segments;
+        return segments;
+    }
+
+    void begin() { count_ = 0; }
+    // A new member's list, empty.
+    std::vector<WeightedSegment>& add(const SumTargets& targets) {
+        targets_[count_] = targets;
+        lists_[count_].clear();
+        return lists_[count_++];
+    }
+    void accumulate(std::uint32_t block_count) const {
+        std::array<BatchMember, kMaxBatchMembers> members;
+        for (std::size_t m = 0; m < count_; ++m) {
+            members[m] = {.segments = lists_[m], .targets = targets_[m]};
+        }
+        if (count_ == 1) {
+            accumulate_segments(members[0].segments, block_count, members[0].targets);
+        } else if (count_ > 1) {
+            accumulate_batch(std::span(members).first(count_), block_count);
         }
     }
+
+  private:
+    std::array<std::vector<WeightedSegment>, kMaxBatchMembers> lists_;
+    std::array<SumTargets, kMaxBatchMembers> targets_;
+    std::size_t count_ = 0;
+};
+
+WeightedSegment weighted(const transport::Transport& transport,
+                         const transport::SegmentView& segment,
+                         const ColumnChange& change,
+                         std::uint32_t channel) {
+    const transport::ColourModel& colour = transport.manifest().colour;
+    const float step = transport.step(change.column, channel);
+    WeightedSegment weighted{.segment = segment, .weights = {}};
+    for (std::size_t c = 0; c < kColours; ++c) {
+        weighted.weights[c] = step * colour.matrix[c][channel] * change.amount[c];
+    }
+    return weighted;
+}
+
+// The segments of the columns in one shard.
+void gather_changes(const transport::Transport& transport,
+                    std::size_t shard,
+                    std::span<const ColumnChange> changes,
+                    std::vector<WeightedSegment>& segments) {
+    const transport::ShardReader& reader = transport.shards()[shard];
+    for (const ColumnChange& change : changes) {
+        for (std::uint32_t k = 0; k < transport.channel_count(); ++k) {
+            const transport::SegmentView segment = reader.segment(change.column, k);
+            if (!segment.empty()) {
+                segments.push_back(weighted(transport, segment, change, k));
+            }
+        }
+    }
+}
+
+// Where groups would end if all columns of a band were summed.
+class Stretches {
+  public:
+    // The stretch of the next segment.
+    std::uint32_t next(std::uint32_t bytes) {
+        if (segments_ == kMaxGroupSegments || bytes_ >= kMaxGroupBytes) {
+            ++stretch_;
+            segments_ = 0;
+            bytes_ = 0;
+        }
+        ++segments_;
+        bytes_ += bytes;
+        return stretch_;
+    }
+
+  private:
+    std::uint32_t stretch_ = 0;
+    std::size_t segments_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+// The segments of all columns of a band in one shard that the lighting has light for. Groups
+// end at the same columns whatever the light, so that lights can be swept together.
+void gather_lighting(const Scene& scene,
+                     std::size_t shard,
+                     std::uint32_t band,
+                     std::span<const float> lighting,
+                     std::vector<WeightedSegment>& segments) {
+    const transport::Transport& transport = scene.transport();
+    const transport::ShardReader& reader = transport.shards()[shard];
+    Stretches stretches;
+    for (const std::uint32_t column : scene.columns_of_band(band)) {
+        const ColumnChange change = column_of(scene, lighting, column);
+        for (std::uint32_t k = 0; k < transport.channel_count(); ++k) {
+            const std::uint32_t bytes = reader.segment_bytes(column, k);
+            if (bytes == 0) {
+                continue;
+            }
+            const std::uint32_t stretch = stretches.next(bytes);
+            if (!change.is_nothing()) {
+                segments.push_back(weighted(transport, reader.segment(column, k), change, k));
+                segments.back().stretch = stretch;
+            }
+        }
+    }
+}
+
+bool has_band(std::uint32_t bands, std::uint32_t band) {
+    return ((bands >> band) & 1U) != 0;
 }
 
 }  // namespace
@@ -61,61 +153,107 @@ std::span<float> BandImages::part(std::vector<float>& image, std::size_t shard) 
 }
 
 void BandImages::update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes) {
-    if (bands_to_clear == 0 && changes.empty()) {
+    const Update update{.images = this, .bands_to_clear = bands_to_clear, .changes = changes};
+    update_together({&update, 1});
+}
+
+void BandImages::update_together(std::span<const Update> updates) {
+    if (updates.empty()) {
         return;
     }
-    tbb::parallel_for(std::size_t{0}, scene_->transport().shards().size(),
-                      [&](std::size_t shard) { update_shard(shard, bands_to_clear, changes); });
-    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-        const bool cleared = ((bands_to_clear >> band) & 1U) != 0;
-        if (cleared || !changes_of_band(changes, scene_->bands(), band).empty()) {
-            record_drift(band, cleared);
+    const Scene& scene = *updates.front().images->scene_;
+    tbb::parallel_for(std::size_t{0}, scene.transport().shards().size(),
+                      [&](std::size_t shard) { update_shard(shard, updates); });
+    for (const Update& update : updates) {
+        for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
+            const bool cleared = has_band(update.bands_to_clear, band);
+            if (cleared || !changes_of_band(update.changes, scene.bands(), band).empty()) {
+                update.images->record_drift(band, cleared);
+            }
         }
     }
 }
 
-void BandImages::rebuild(std::size_t first_shard,
-                         std::size_t last_shard,
-                         std::span<const ColumnChange> columns) {
-    const std::uint32_t all_bands = (1U << bands_.size()) - 1;
+void BandImages::update_shard(std::size_t shard, std::span<const Update> updates) {
+    const Scene& scene = *updates.front().images->scene_;
+    SweptSegments& swept = SweptSegments::of_this_thread();
+    const auto is_touched = [&](const Update& update, std::uint32_t band) {
+        return has_band(update.bands_to_clear, band) ||
+               !changes_of_band(update.changes, scene.bands(), band).empty();
+    };
+    for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
+        swept.begin();
+        for (const Update& update : updates) {
+            BandImages& images = *update.images;
+            if (has_band(update.bands_to_clear, band)) {
+                images.clear_band(shard, band);
+            }
+            const auto of_band = changes_of_band(update.changes, scene.bands(), band);
+            if (!of_band.empty()) {
+                float* total = update.bands_to_clear != 0
+                                   ? nullptr
+                                   : images.part(images.total_, shard).data();
+                gather_changes(
+                    scene.transport(), shard, of_band,
+                    swept.add({.sums = images.part(images.bands_[band], shard).data(),
+                               .total = total}));
+            }
+        }
+        swept.accumulate(scene.transport().shards()[shard].block_count());
+        for (const Update& update : updates) {
+            if (is_touched(update, band)) {
+                update.images->record_energy(shard, band);
+            }
+        }
+    }
+    for (const Update& update : updates) {
+        if (update.bands_to_clear != 0) {
+            update.images->sum_bands(shard);
+        }
+    }
+}
+
+void BandImages::rebuild_together(std::size_t first_shard,
+                                  std::size_t last_shard,
+                                  std::span<const Rebuild> rebuilds) {
     tbb::parallel_for(first_shard, last_shard,
-                      [&](std::size_t shard) { update_shard(shard, all_bands, columns); });
-    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-        record_drift(band, true);
-    }
-}
-
-void BandImages::update_shard(std::size_t shard,
-                              std::uint32_t bands_to_clear,
-                              std::span<const ColumnChange> changes) {
-    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-        const bool clear = ((bands_to_clear >> band) & 1U) != 0;
-        const auto of_band = changes_of_band(changes, scene_->bands(), band);
-        if (clear || !of_band.empty()) {
-            update_band(shard, band, clear, bands_to_clear != 0, of_band);
+                      [&](std::size_t shard) { rebuild_shard(shard, rebuilds); });
+    for (const Rebuild& rebuild : rebuilds) {
+        for (std::uint32_t band = 0; band < rebuild.images->bands_.size(); ++band) {
+            rebuild.images->record_drift(band, true);
         }
     }
-    if (bands_to_clear != 0) {
-        sum_bands(shard);
+}
+
+void BandImages::rebuild_shard(std::size_t shard, std::span<const Rebuild> rebuilds) {
+    const Scene& scene = *rebuilds.front().images->scene_;
+    SweptSegments& swept = SweptSegments::of_this_thread();
+    for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
+        swept.begin();
+        for (const Rebuild& rebuild : rebuilds) {
+            BandImages& images = *rebuild.images;
+            images.clear_band(shard, band);
+            gather_lighting(scene, shard, band, rebuild.lighting,
+                            swept.add({.sums = images.part(images.bands_[band], shard).data(),
+                                       .total = nullptr}));
+        }
+        swept.accumulate(scene.transport().shards()[shard].block_count());
+        for (const Rebuild& rebuild : rebuilds) {
+            rebuild.images->record_energy(shard, band);
+        }
+    }
+    for (const Rebuild& rebuild : rebuilds) {
+        rebuild.images->sum_bands(shard);
     }
 }
 
-void BandImages::update_band(std::size_t shard,
-                             std::uint32_t band,
-                             bool clear,
-                             bool total_is_resummed,
-                             std::span<const ColumnChange> changes) {
+void BandImages::clear_band(std::size_t shard, std::uint32_t band) {
     const std::span<float> image = part(bands_[band], shard);
-    if (clear) {
-        std::fill(image.begin(), image.end(), 0.0F);
-    }
-    thread_local std::vector<WeightedSegment> segments;
-    const transport::ShardReader& reader = scene_->transport().shards()[shard];
-    gather_segments(scene_->transport(), reader, changes, segments);
-    accumulate_segments(segments, reader.block_count(),
-                        {.sums = image.data(),
-                         .total = total_is_resummed ? nullptr : part(total_, shard).data()});
-    energies_[shard * bands_.size() + band] = squared_norm(image);
+    std::fill(image.begin(), image.end(), 0.0F);
+}
+
+void BandImages::record_energy(std::size_t shard, std::uint32_t band) {
+    energies_[shard * bands_.size() + band] = squared_norm(part(bands_[band], shard));
 }
 
 void BandImages::sum_bands(std::size_t shard) {

@@ -32,12 +32,26 @@ class BandImages {
     // The band that contributes most to it.
     [[nodiscard]] std::uint32_t most_drifted_band() const;
 
-    // For images made from nothing, some shards at a time: sets all bands and the total of
-    // shards [first, last) to the sums of the columns, ordered by band. Every shard must get
-    // its turn with the same columns before the total means anything.
-    void rebuild(std::size_t first_shard,
-                 std::size_t last_shard,
-                 std::span<const ColumnChange> columns);
+    // What `update` does to each of several images of one scene, at most kMaxBatchMembers, in
+    // one sweep over the columns. The same bits, whoever is swept together.
+    struct Update {
+        BandImages* images = nullptr;  // no two the same
+        std::uint32_t bands_to_clear = 0;
+        std::span<const ColumnChange> changes;
+    };
+    static void update_together(std::span<const Update> updates);
+
+    // For images made from nothing, some shards at a time, and again several of them in one
+    // sweep: all bands and the total of shards [first, last) become the product of the
+    // lighting, planar [3][N]. Every shard must get its turn with the same lighting before the
+    // total means anything. Depends on the lighting alone, to the last bit.
+    struct Rebuild {
+        BandImages* images = nullptr;  // no two the same
+        std::span<const float> lighting;
+    };
+    static void rebuild_together(std::size_t first_shard,
+                                 std::size_t last_shard,
+                                 std::span<const Rebuild> rebuilds);
 
   private:
     struct Drift {
@@ -47,14 +61,10 @@ class BandImages {
         [[nodiscard]] double error() const;
     };
 
-    void update_shard(std::size_t shard,
-                      std::uint32_t bands_to_clear,
-                      std::span<const ColumnChange> changes);
-    void update_band(std::size_t shard,
-                     std::uint32_t band,
-                     bool clear,
-                     bool total_is_resummed,
-                     std::span<const ColumnChange> changes);
+    static void update_shard(std::size_t shard, std::span<const Update> updates);
+    static void rebuild_shard(std::size_t shard, std::span<const Rebuild> rebuilds);
+    void clear_band(std::size_t shard, std::uint32_t band);
+    void record_energy(std::size_t shard, std::uint32_t band);
     void sum_bands(std::size_t shard);
     void record_drift(std::uint32_t band, bool cleared);
     [[nodiscard]] std::span<float> part(std::vector<float>& image, std::size_t shard) const;

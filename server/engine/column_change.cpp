@@ -4,25 +4,17 @@
 
 namespace relume::engine {
 
-using transport::kColours;
-
-void gather_columns(const Scene& scene,
-                    std::span<const float> lighting,
-                    std::vector<ColumnChange>& columns) {
-    const std::size_t count = scene.coefficient_count();
-    columns.clear();
-    columns.reserve(count);
-    for (const std::uint32_t j : scene.columns_by_band()) {
-        ColumnChange change{.column = j};
-        bool any = false;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            change.amount[c] = lighting[c * count + j];
-            any = any || change.amount[c] != 0;
-        }
-        if (any) {
+std::vector<ColumnChange> changes_from_nothing(const Scene& scene,
+                                               std::span<const float> lighting,
+                                               std::uint32_t band) {
+    std::vector<ColumnChange> columns;
+    for (const std::uint32_t column : scene.columns_of_band(band)) {
+        const ColumnChange change = column_of(scene, lighting, column);
+        if (!change.is_nothing()) {
             columns.push_back(change);
         }
     }
+    return columns;
 }
 
 std::span<const ColumnChange> changes_of_band(std::span<const ColumnChange> changes,

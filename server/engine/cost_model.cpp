@@ -1,5 +1,7 @@
 #include "server/engine/cost_model.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 
 namespace relume::engine {
@@ -17,8 +19,9 @@ void CostModel::record_columns(std::uint64_t bytes, double milliseconds) {
     // Fewer bytes than this are all overhead and tell nothing of the rate.
     constexpr std::uint64_t kTellingBytes = 64 * 1024;
     if (bytes >= kTellingBytes) {
-        nanoseconds_per_byte_ =
-            blend(nanoseconds_per_byte_, milliseconds * 1e6 / static_cast<double>(bytes));
+        const double newest = milliseconds * 1e6 / static_cast<double>(bytes);
+        nanoseconds_per_byte_ = measured_ ? blend(nanoseconds_per_byte_, newest) : newest;
+        measured_ = true;
     }
 }
 
@@ -26,8 +29,11 @@ void CostModel::record_overhead(double milliseconds) {
     overhead_milliseconds_ = blend(overhead_milliseconds_, milliseconds);
 }
 
-std::uint64_t CostModel::bytes_within(double milliseconds) const {
-    const double for_columns = std::max(0.0, milliseconds - overhead_milliseconds_);
+std::uint64_t CostModel::bytes_within(double milliseconds, std::size_t sessions) const {
+    const auto count = static_cast<double>(sessions);
+    const double rounds = std::max(1.0, count / tbb::this_task_arena::max_concurrency());
+    const double for_columns =
+        std::max(0.0, milliseconds - rounds * overhead_milliseconds_) / count;
     return static_cast<std::uint64_t>(for_columns * 1e6 / nanoseconds_per_byte_);
 }
 

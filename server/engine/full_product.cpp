@@ -1,5 +1,7 @@
 #include "server/engine/full_product.h"
 
+#include "server/engine/kernels/accumulate_batch.h"
+
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -7,27 +9,56 @@
 
 namespace relume::engine {
 
-void FullProduct::start(std::span<const float> lighting) {
+void FullProduct::start(std::span<const float> lighting, std::size_t first_shard) {
     if (images_.empty()) {
         images_.emplace_back(*scene_);
     }
-    gather_columns(*scene_, lighting, columns_);
-    next_shard_ = 0;
-    running_ = true;
+    lighting_.assign(lighting.begin(), lighting.end());
+    next_shard_ = first_shard;
+    shards_left_ = scene_->transport().shards().size();
 }
 
-std::uint64_t FullProduct::advance(std::uint64_t bytes) {
-    const auto& shards = scene_->transport().shards();
-    const std::uint64_t bytes_per_shard = scene_->transport().total_bytes() / shards.size() + 1;
+std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> products,
+                                            std::uint64_t bytes) {
+    std::vector<FullProduct*> by_shard(products.begin(), products.end());
+    std::stable_sort(by_shard.begin(), by_shard.end(),
+                     [](const FullProduct* a, const FullProduct* b) {
+                         return a->next_shard_ < b->next_shard_;
+                     });
+    std::uint64_t read = 0;
+    for (auto first = by_shard.begin(); first != by_shard.end();) {
+        const auto last = std::find_if(first, by_shard.end(), [&](const FullProduct* other) {
+            return other->next_shard_ != (*first)->next_shard_;
+        });
+        const auto count =
+            std::min(last - first, static_cast<std::ptrdiff_t>(kMaxBatchMembers));
+        read += sweep({first, first + count}, bytes);
+        first += count;
+    }
+    return read;
+}
+
+std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::uint64_t bytes) {
+    const Scene& scene = *products.front()->scene_;
+    const std::size_t shards = scene.transport().shards().size();
+    const std::uint64_t bytes_per_shard = scene.transport().total_bytes() / shards + 1;
     const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
     // A slice that would leave threads idle takes no less time than one that occupies them all.
     const std::uint64_t wanted = std::max(bytes / bytes_per_shard / threads * threads, threads);
-    const std::size_t last = std::min<std::uint64_t>(shards.size(), next_shard_ + wanted);
-    images_.front().rebuild(next_shard_, last, columns_);
-    const std::uint64_t read = bytes_per_shard * (last - next_shard_);
-    next_shard_ = last;
-    running_ = next_shard_ < shards.size();
-    return read;
+    const std::size_t first = products.front()->next_shard_;
+    std::size_t last = std::min<std::uint64_t>(shards, first + wanted);
+    std::vector<BandImages::Rebuild> rebuilds;
+    for (FullProduct* product : products) {
+        last = std::min(last, first + product->shards_left_);
+        rebuilds.push_back(
+            {.images = &product->images_.front(), .lighting = product->lighting_});
+    }
+    BandImages::rebuild_together(first, last, rebuilds);
+    for (FullProduct* product : products) {
+        product->next_shard_ = last % shards;
+        product->shards_left_ -= last - first;
+    }
+    return bytes_per_shard * (last - first) * products.size();
 }
 
 void FullProduct::exchange(BandImages& images) {

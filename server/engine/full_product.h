@@ -3,39 +3,50 @@
 #pragma once
 
 #include "server/engine/band_images.h"
-#include "server/engine/column_change.h"
 #include "server/engine/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace relume::engine {
 
-// Sums run in the order of bands and columns whatever came before, so the result depends on the
-// lighting alone. Not thread-safe.
+// Sums run in the order of bands and columns whatever came before and whoever is swept with it,
+// so the result depends on the lighting alone. Not thread-safe.
 class FullProduct {
   public:
     explicit FullProduct(const Scene& scene) : scene_(&scene) {}
 
-    [[nodiscard]] bool running() const { return running_; }
-    // Begins anew with this lighting, planar [3][N].
-    void start(std::span<const float> lighting);
-    void abandon() { running_ = false; }
+    [[nodiscard]] bool running() const { return shards_left_ > 0; }
+    // Begins anew with this lighting, planar [3][N], at any shard: it goes around. Products
+    // that stand at the same shard are swept together.
+    void start(std::span<const float> lighting, std::size_t first_shard = 0);
+    void abandon() { shards_left_ = 0; }
+    [[nodiscard]] std::size_t next_shard() const { return next_shard_; }
 
-    // Goes through at least one shard, and on until about `bytes` of columns have been read;
-    // returns the bytes read. Ends with running() false when all is done.
-    std::uint64_t advance(std::uint64_t bytes);
+    // Each of the products, all running and of one scene, goes through at least one shard, and
+    // on until about `bytes` of columns have been read; returns the bytes read, those that
+    // several shared counted for each. One ends with running() false when all is done.
+    static std::uint64_t advance_together(std::span<FullProduct* const> products,
+                                          std::uint64_t bytes);
+    std::uint64_t advance(std::uint64_t bytes) {
+        FullProduct* const product = this;
+        return advance_together({&product, 1}, bytes);
+    }
 
     // Hands the finished images over in exchange for the ones given.
     void exchange(BandImages& images);
 
   private:
+    // All of them stand at the same shard.
+    static std::uint64_t sweep(std::span<FullProduct* const> products, std::uint64_t bytes);
+
     const Scene* scene_;
     std::vector<BandImages> images_;  // none until first needed, then one
-    std::vector<ColumnChange> columns_;
+    std::vector<float> lighting_;
     std::size_t next_shard_ = 0;
-    bool running_ = false;
+    std::size_t shards_left_ = 0;
 };
 
 }  // namespace relume::engine

@@ -45,6 +45,12 @@ void Scene::order_by_band() {
     std::stable_sort(
         columns_by_band_.begin(), columns_by_band_.end(),
         [this](std::uint32_t a, std::uint32_t b) { return bands_[a] < bands_[b]; });
+    for (std::uint32_t band = 0; band <= band_count_; ++band) {
+        const auto begin =
+            std::partition_point(columns_by_band_.begin(), columns_by_band_.end(),
+                                 [&](std::uint32_t j) { return bands_[j] < band; });
+        band_begins_.push_back(static_cast<std::size_t>(begin - columns_by_band_.begin()));
+    }
     for (std::size_t place = 0; place < columns_by_band_.size(); ++place) {
         const std::uint32_t band = bands_[columns_by_band_[place]];
         if (band_chunks_.empty() || band_chunks_.back().band != band ||

@@ -49,6 +49,11 @@ class Scene {
     [[nodiscard]] std::span<const std::uint32_t> columns_by_band() const {
         return columns_by_band_;
     }
+    // Those of one band, by index.
+    [[nodiscard]] std::span<const std::uint32_t> columns_of_band(std::uint32_t band) const {
+        return std::span(columns_by_band_)
+            .subspan(band_begins_[band], band_begins_[band + 1] - band_begins_[band]);
+    }
     // Every place in it, 0 … N−1.
     [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
     // The same in pieces of one band and at most 1024 columns, in order: what loops over the
@@ -72,6 +77,7 @@ class Scene {
     std::uint32_t band_count_;
     std::vector<std::uint8_t> bands_;
     std::vector<std::uint32_t> columns_by_band_;
+    std::vector<std::size_t> band_begins_;  // [bands + 1], places in columns_by_band_
     std::vector<std::uint32_t> places_;
     std::vector<BandChunk> band_chunks_;
     std::array<std::vector<float>, 4> weights_;

@@ -1,9 +1,11 @@
 #include "server/engine/session.h"
 
 #include "protocol/transport/receiver_basis.h"
+#include "server/engine/kernels/accumulate_batch.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +24,8 @@ using transport::kTileSide;
 constexpr double kLargestDrift = 1e-5;
 // At rest the full product begins at once when it takes no longer than so many images.
 constexpr std::uint64_t kImagesForFullProduct = 4;
+// And where what is left cannot be seen, so that nobody waits for it in small steps.
+constexpr double kUnseenError = 1e-3;
 
 class Stopwatch {
   public:
@@ -62,23 +66,42 @@ bool Session::at_rest(const wire::Budget& budget) const {
 }
 
 StepReport Session::advance(const wire::Budget& budget) {
-    StepReport report;
-    if (!at_rest(budget)) {
-        if (lighting_is_new_ ? full_product_fits_one_image(budget)
-                             : full_product_is_next(budget)) {
-            advance_full_product(budget, report);
-        } else {
-            carry_out(next_plan(selection_budget(budget)), report);
+    SessionTurn turn{.session = this, .budget = budget, .report = {}};
+    advance_together({&turn, 1});
+    return turn.report;
+}
+
+void Session::advance_together(std::span<SessionTurn> turns) {
+    std::vector<Intent> intents(turns.size());
+    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
+        // Times what it does: others' work must not slip in between.
+        tbb::this_task_arena::isolate([&] {
+            intents[i] =
+                turns[i].session->intend({.budget = turns[i].budget, .sessions = turns.size()});
+        });
+    });
+    std::vector<PlannedTurn> planned;
+    std::vector<SessionTurn*> products;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        turns[i].report = {};
+        if (intents[i].deed == Deed::plan) {
+            planned.push_back({turns[i].session, intents[i].plan, &turns[i].report});
+        } else if (intents[i].deed == Deed::full_product) {
+            products.push_back(&turns[i]);
         }
     }
-    state(report);
-    return report;
+    carry_out(planned);
+    advance_full_products(products, turns.size());
+    for (SessionTurn& turn : turns) {
+        turn.session->state(turn.report);
+    }
 }
 
 StepReport Session::advance_incrementally(const SelectionBudget& budget) {
     StepReport report;
     if (!exact_) {
-        carry_out(next_plan(budget), report);
+        const PlannedTurn turn{this, &next_plan(budget), &report};
+        carry_out({&turn, 1});
     }
     state(report);
     return report;
@@ -88,6 +111,16 @@ void Session::state(StepReport& report) const {
     report.remaining = exact_ ? 0 : remaining_;
     report.exact = exact_;
     report.stated_error = stated_error();
+}
+
+Session::Intent Session::intend(const Share& share) {
+    if (at_rest(share.budget)) {
+        return {};
+    }
+    if (lighting_is_new_ ? full_product_fits_one_image(share) : full_product_is_next(share)) {
+        return {.deed = Deed::full_product, .plan = nullptr};
+    }
+    return {.deed = Deed::plan, .plan = &next_plan(selection_budget(share))};
 }
 
 const Plan& Session::next_plan(const SelectionBudget& budget) {
@@ -107,18 +140,40 @@ const Plan& Session::next_plan(const SelectionBudget& budget) {
     return plan;
 }
 
-SelectionBudget Session::selection_budget(const wire::Budget& budget) const {
-    if (budget.coefficients) {
-        return {.columns = *budget.coefficients, .bytes = scene_->transport().total_bytes()};
+SelectionBudget Session::selection_budget(const Share& share) const {
+    if (share.budget.coefficients) {
+        return {.columns = *share.budget.coefficients,
+                .bytes = scene_->transport().total_bytes()};
     }
     return {.columns = static_cast<std::uint32_t>(scene_->coefficient_count()),
-            .bytes = cost_.bytes_within(budget.milliseconds.value_or(0))};
+            .bytes = cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions)};
 }
 
-void Session::carry_out(const Plan& plan, StepReport& report) {
+void Session::carry_out(std::span<const PlannedTurn> turns) {
     const Stopwatch stopwatch;
-    images_.update(plan.bands_to_reset, plan.changes);
-    cost_.record_columns(plan.bytes, stopwatch.milliseconds());
+    std::uint64_t bytes = 0;
+    for (std::size_t first = 0; first < turns.size(); first += kMaxBatchMembers) {
+        const auto batch =
+            turns.subspan(first, std::min(kMaxBatchMembers, turns.size() - first));
+        std::vector<BandImages::Update> updates;
+        for (const PlannedTurn& turn : batch) {
+            updates.push_back({.images = &turn.session->images_,
+                               .bands_to_clear = turn.plan->bands_to_reset,
+                               .changes = turn.plan->changes});
+            bytes += turn.plan->bytes;
+        }
+        BandImages::update_together(updates);
+    }
+    const double taken = stopwatch.milliseconds();
+    for (const PlannedTurn& turn : turns) {
+        turn.session->cost_.record_columns(bytes, taken);
+    }
+    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
+        turns[i].session->plan_is_carried_out(*turns[i].plan, *turns[i].report);
+    });
+}
+
+void Session::plan_is_carried_out(const Plan& plan, StepReport& report) {
     lighting_.apply(plan);
     error_.apply(plan);
     planner_.apply(plan);
@@ -135,49 +190,79 @@ void Session::remove_drift(StepReport& report) {
         return;
     }
     const std::uint32_t band = images_.most_drifted_band();
-    std::vector<ColumnChange> all;
-    gather_columns(*scene_, lighting_.approximation(), all);
-    const auto columns = changes_of_band(all, scene_->bands(), band);
+    const auto columns = changes_from_nothing(*scene_, lighting_.approximation(), band);
     images_.update(1U << band, columns);
     for (const ColumnChange& column : columns) {
         report.bytes_touched += scene_->transport().column_bytes(column.column);
     }
 }
 
-std::uint64_t Session::bytes_per_image(const wire::Budget& budget) const {
-    if (budget.coefficients) {
+std::uint64_t Session::product_bytes_per_image(const Share& share) const {
+    if (share.budget.coefficients) {
         return scene_->transport().total_bytes() / scene_->coefficient_count() *
-               *budget.coefficients;
+               *share.budget.coefficients;
     }
-    return cost_.bytes_within(budget.milliseconds.value_or(0));
+    return product_cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions);
 }
 
-bool Session::full_product_is_next(const wire::Budget& budget) const {
-    if (full_product_.running() || remaining_ == 0) {
+bool Session::full_product_is_next(const Share& share) const {
+    if (full_product_.running() || remaining_ == 0 || error_.relative_l2() <= kUnseenError) {
         return true;
     }
-    return scene_->transport().total_bytes() <= kImagesForFullProduct * bytes_per_image(budget);
+    return scene_->transport().total_bytes() <=
+           kImagesForFullProduct * product_bytes_per_image(share);
 }
 
 // Exact images while dragging: nothing is then chosen or estimated.
-bool Session::full_product_fits_one_image(const wire::Budget& budget) const {
-    return !budget.coefficients && scene_->transport().total_bytes() <= bytes_per_image(budget);
+bool Session::full_product_fits_one_image(const Share& share) const {
+    return !share.budget.coefficients &&
+           scene_->transport().total_bytes() <= product_bytes_per_image(share);
 }
 
-void Session::advance_full_product(const wire::Budget& budget, StepReport& report) {
-    if (!full_product_.running()) {
-        full_product_.start(lighting_.target());
+void Session::advance_full_products(std::span<SessionTurn* const> turns, std::size_t sessions) {
+    if (turns.empty()) {
+        return;
+    }
+    std::vector<FullProduct*> products;
+    std::uint64_t slice_bytes = 0;
+    for (const SessionTurn* turn : turns) {
+        products.push_back(&turn->session->full_product_);
+        slice_bytes =
+            std::max(slice_bytes, turn->session->product_bytes_per_image(
+                                      {.budget = turn->budget, .sessions = sessions}));
+    }
+    // Those that begin do so where another stands, to be swept together.
+    const auto runs =
+        std::find_if(products.begin(), products.end(),
+                     [](const FullProduct* product) { return product->running(); });
+    const std::size_t first_shard = runs == products.end() ? 0 : (*runs)->next_shard();
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        if (!products[i]->running()) {
+            products[i]->start(turns[i]->session->lighting_.target(), first_shard);
+        }
     }
     const Stopwatch stopwatch;
     std::uint64_t bytes = 0;
+    const auto somebody_waits_for_all = [&] {
+        return std::any_of(turns.begin(), turns.end(), [](const SessionTurn* turn) {
+            return turn->session->lighting_is_new_ && turn->session->full_product_.running();
+        });
+    };
     do {
-        bytes += full_product_.advance(bytes_per_image(budget));
-    } while (lighting_is_new_ && full_product_.running());
-    cost_.record_columns(bytes, stopwatch.milliseconds());
-    report.bytes_touched += bytes;
-    if (full_product_.running()) {
-        return;
+        std::erase_if(products, [](const FullProduct* product) { return !product->running(); });
+        bytes += FullProduct::advance_together(products, slice_bytes);
+    } while (somebody_waits_for_all());
+    const double taken = stopwatch.milliseconds();
+    for (SessionTurn* turn : turns) {
+        turn->session->product_cost_.record_columns(bytes, taken);
+        turn->report.bytes_touched += bytes / turns.size();
+        if (!turn->session->full_product_.running()) {
+            turn->session->full_product_is_done(turn->report);
+        }
     }
+}
+
+void Session::full_product_is_done(StepReport& report) {
     full_product_.exchange(images_);
     if (lighting_is_new_) {
         estimates_are_stale_ = true;

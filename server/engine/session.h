@@ -27,9 +27,18 @@ struct StepReport {
     bool exact = false;
 };
 
+class Session;
+
+// A session's part in a step that several take together.
+struct SessionTurn {
+    Session* session = nullptr;
+    wire::Budget budget;  // milliseconds: of the whole step, all sessions in it
+    StepReport report;    // what it did
+};
+
 // Not thread-safe: one thread at a time calls it; inside, work is spread over oneTBB's arena of
-// the caller. The image depends only on the history of calls, not on the number of threads; an
-// exact image depends on the lighting alone, to the last bit.
+// the caller. The image depends only on the history of calls, not on the number of threads nor
+// on who was relit together; an exact image depends on the lighting alone, to the last bit.
 class Session {
   public:
     Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy);
@@ -47,6 +56,11 @@ class Session {
     // history. Where the full product fits into one image's milliseconds, every image is
     // exact. Costs nothing when exact.
     StepReport advance(const wire::Budget& budget);
+
+    // The same for each of several sessions of one scene, no two the same, in one sweep over
+    // the transport: what they have in common is read and decoded once. Milliseconds are shared
+    // alike. Under a budget of coefficients every session gets the bits it would get alone.
+    static void advance_together(std::span<SessionTurn> turns);
 
     // One image's worth of the method alone, under a budget of columns and bytes: what
     // `advance` does before it turns to the full product.
@@ -70,17 +84,38 @@ class Session {
     void write_image(std::span<float> rgb) const;
 
   private:
+    // What a turn is about to do. The plan is the planner's, until it chooses again.
+    enum class Deed : std::uint8_t { nothing, plan, full_product };
+    struct Intent {
+        Deed deed = Deed::nothing;
+        const Plan* plan = nullptr;
+    };
+    // A session's part of what all sessions of a step may take.
+    struct Share {
+        wire::Budget budget;
+        std::size_t sessions = 1;  // among which its milliseconds are divided
+    };
+
     void write_block(std::uint32_t block, std::span<float> rgb) const;
+    [[nodiscard]] Intent intend(const Share& share);
     // Chooses; the approximation and the image stay as they are.
     [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);
-    // Brings image, approximation and estimates to where the plan leads.
-    void carry_out(const Plan& plan, StepReport& report);
+    // Brings images, approximations and estimates to where the plans lead.
+    struct PlannedTurn {
+        Session* session;
+        const Plan* plan;
+        StepReport* report;
+    };
+    static void carry_out(std::span<const PlannedTurn> turns);
+    void plan_is_carried_out(const Plan& plan, StepReport& report);
+    static void advance_full_products(std::span<SessionTurn* const> turns,
+                                      std::size_t sessions);
+    void full_product_is_done(StepReport& report);
     void state(StepReport& report) const;
-    void advance_full_product(const wire::Budget& budget, StepReport& report);
-    [[nodiscard]] bool full_product_is_next(const wire::Budget& budget) const;
-    [[nodiscard]] bool full_product_fits_one_image(const wire::Budget& budget) const;
-    [[nodiscard]] std::uint64_t bytes_per_image(const wire::Budget& budget) const;
-    [[nodiscard]] SelectionBudget selection_budget(const wire::Budget& budget) const;
+    [[nodiscard]] bool full_product_is_next(const Share& share) const;
+    [[nodiscard]] bool full_product_fits_one_image(const Share& share) const;
+    [[nodiscard]] std::uint64_t product_bytes_per_image(const Share& share) const;
+    [[nodiscard]] SelectionBudget selection_budget(const Share& share) const;
     void remove_drift(StepReport& report);
 
     std::shared_ptr<const Scene> scene_;
@@ -89,7 +124,9 @@ class Session {
     Planner planner_;
     BandImages images_;
     ErrorEstimate error_;
+    // Columns that are chosen, and the full product, of which sessions share more.
     CostModel cost_;
+    CostModel product_cost_;
     FullProduct full_product_;
     std::uint32_t remaining_ = 0;
     bool lighting_is_new_ = false;

@@ -227,7 +227,8 @@ class Workspace {
         sparse_.clear();
         while (!segments.empty()) {
             const auto group = next_group(segments);
-            lists_.fill(group, block_count);
+            lists_.fill(
+                group.size(), [&](std::size_t s) { return group[s].segment; }, block_count);
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(group, block);
                 if (values_.any) {
@@ -302,7 +303,7 @@ class Workspace {
     }
 
     const BitmapExpansion expansion_ = best_expansion();
-    CellLists lists_;
+    CellLists<kMaxGroupSegments> lists_;
     BlockValues values_;
     SparseSums sparse_;
     // In the order in which they go into values_.

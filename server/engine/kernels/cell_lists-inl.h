@@ -22,19 +22,20 @@ namespace relume::engine::HWY_NAMESPACE {
 struct ListedCell {
     const std::uint8_t* cell;
     transport::CellTag tag;
-    std::uint8_t segment;  // in its group
+    std::uint16_t segment;  // in its group
 };
-static_assert(kMaxGroupSegments <= 256);
 
-// Segments are walked once, in the order of memory, each cell asked for a while before it is
-// passed; the blocks' lists then find it in the cache.
+// Segments, at most kMaxSegments, are walked once, in the order of memory, each cell asked for
+// a while before it is passed; the blocks' lists then find it in the cache.
+template <std::size_t kMaxSegments>
 class CellLists {
   public:
-    // Replaces what the lists hold.
-    void fill(std::span<const WeightedSegment> segments, std::uint32_t block_count) {
+    // Replaces what the lists hold by the cells of `count` segments.
+    template <typename SegmentAt>
+    void fill(std::size_t count, const SegmentAt& segment_at, std::uint32_t block_count) {
         counts_.fill(0);
-        for (std::size_t s = 0; s < segments.size(); ++s) {
-            walk(segments[s].segment, static_cast<std::uint8_t>(s), block_count);
+        for (std::size_t s = 0; s < count; ++s) {
+            walk(segment_at(s), static_cast<std::uint16_t>(s), block_count);
         }
     }
 
@@ -50,7 +51,7 @@ class CellLists {
     static constexpr std::size_t kPrefetchBytes = 1024;
 
     void walk(const transport::SegmentView& segment,
-              std::uint8_t number,
+              std::uint16_t number,
               std::uint32_t block_count) {
         const std::uint8_t* cell = segment.cells;
         const std::uint8_t* ahead = cell;
@@ -103,8 +104,8 @@ class CellLists {
     }
 
     // Rows a power of two apart would all begin in the same set of the first-level cache.
-    static constexpr std::size_t kRowCells =
-        kMaxGroupSegments + kCacheLine / sizeof(ListedCell);
+    static constexpr std::size_t kRowCells = kMaxSegments + kCacheLine / sizeof(ListedCell);
+    static_assert(kMaxSegments <= 1U + std::uint16_t(-1));
 
     std::array<std::array<ListedCell, kRowCells>, transport::kMaxBlocksPerShard> cells_;
     std::array<std::uint32_t, transport::kMaxBlocksPerShard> counts_;

@@ -1,0 +1,304 @@
+// The batch kernel for every instruction set Highway knows, chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/engine/kernels/accumulate_batch.cpp"
+#include "server/engine/kernels/accumulate_batch.h"
+
+#include "server/engine/kernels/target.h"
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+// Must come after highway.h, in a group of their own so that no formatter sorts them.
+#include "server/engine/kernels/batch_lanes-inl.h"
+#include "server/engine/kernels/cell_lists-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace relume::engine::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR  // no fused multiply-add: the specification does
+
+void accumulate_members(std::span<const BatchMember> members, std::uint32_t block_count) {
+    accumulate_batch_scalar(members, block_count);
+}
+
+#else
+
+namespace {
+
+using transport::CellTag;
+using transport::kBlockSize;
+
+// The groups of all members that are taken together: every segment once, with the weights of
+// all who take it.
+class Wave {
+  public:
+    static constexpr std::size_t kMaxSegments = kMaxBatchMembers * kMaxGroupSegments;
+
+    // Takes the next group of every member; false when none has one.
+    bool fill(std::span<std::span<const WeightedSegment>> left) {
+        segments_.clear();
+        weights_.clear();
+        for (std::size_t m = 0; m < left.size(); ++m) {
+            groups_[m] = left[m].empty() ? left[m] : next_group(left[m]);
+            left[m] = left[m].subspan(groups_[m].size());
+        }
+        while (take_next(std::span(groups_).first(left.size()))) {
+        }
+        return !segments_.empty();
+    }
+
+    struct Lanes {
+        LaneWeights weights{};
+        std::array<std::uint8_t, kMaxVectors> active{};  // vectors with a weight, ascending
+        std::uint8_t active_count = 0;
+    };
+
+    [[nodiscard]] std::span<const transport::SegmentView> segments() const { return segments_; }
+    [[nodiscard]] const Lanes& lanes(std::size_t segment) const { return weights_[segment]; }
+
+  private:
+    using Groups = std::array<std::span<const WeightedSegment>, kMaxBatchMembers>;
+
+    // The first in memory of what is left of the groups.
+    bool take_next(std::span<std::span<const WeightedSegment>> groups) {
+        const std::uint8_t* first = nullptr;
+        for (const auto& group : groups) {
+            if (!group.empty() && (first == nullptr || group.front().segment.tags < first)) {
+                first = group.front().segment.tags;
+            }
+        }
+        if (first == nullptr) {
+            return false;
+        }
+        Lanes& lanes = weights_.emplace_back();
+        for (std::size_t m = 0; m < groups.size(); ++m) {
+            if (groups[m].empty() || groups[m].front().segment.tags != first) {
+                continue;
+            }
+            if (segments_.size() < weights_.size()) {
+                segments_.push_back(groups[m].front().segment);
+            }
+            std::copy_n(groups[m].front().weights.begin(), transport::kColours,
+                        &lanes.weights[transport::kColours * m]);
+            groups[m] = groups[m].subspan(1);
+        }
+        note_active(lanes);
+        return true;
+    }
+
+    static void note_active(Lanes& lanes) {
+        for (std::size_t vector = 0; vector < kMaxVectors; ++vector) {
+            const auto first =
+                lanes.weights.begin() + static_cast<std::ptrdiff_t>(vector * kVectorLanes);
+            if (std::any_of(first, first + kVectorLanes,
+                            [](float weight) { return weight != 0; })) {
+                lanes.active[lanes.active_count++] = static_cast<std::uint8_t>(vector);
+            }
+        }
+    }
+
+    Groups groups_;
+    std::vector<transport::SegmentView> segments_;
+    std::vector<Lanes> weights_;
+};
+
+// Every value of a byte, so that it need not be converted.
+constexpr std::array<float, 256> kFloatFromByte = [] {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = static_cast<float>(static_cast<std::int8_t>(i));
+    }
+    return values;
+}();
+
+// Calls add(slot, rank) for every set bit of a bitmap.
+template <typename Add>
+HWY_INLINE void for_each_value(const std::uint8_t* bitmap, const Add& add) {
+    std::size_t rank = 0;
+    for (std::size_t first = 0; first < kBlockSize; first += 64) {
+        std::uint64_t mask = 0;
+        std::memcpy(&mask, bitmap + first / 8, sizeof(mask));
+        for (; mask != 0; mask &= mask - 1) {
+            add(first + static_cast<std::size_t>(std::countr_zero(mask)), rank++);
+        }
+    }
+}
+
+std::uint32_t rows_of_bitmap(const std::uint8_t* bitmap) {
+    std::uint32_t rows = 0;
+    for (std::size_t row = 0; row < kBlockSize / LaneSums::kRowSlots; ++row) {
+        rows |= ((bitmap[2 * row] | bitmap[2 * row + 1]) != 0 ? 1U : 0U) << row;
+    }
+    return rows;
+}
+
+constexpr std::uint32_t kAllRows = (1U << (kBlockSize / LaneSums::kRowSlots)) - 1;
+
+// What a thread keeps from call to call; too large for its stack.
+class Workspace {
+  public:
+    void accumulate(std::span<const BatchMember> members, std::uint32_t block_count) {
+        members_ = members;
+        const std::size_t lanes = transport::kColours * members.size();
+        stride_ = (lanes + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+        std::array<std::span<const WeightedSegment>, kMaxBatchMembers> left;
+        std::transform(members.begin(), members.end(), left.begin(),
+                       [](const BatchMember& member) { return member.segments; });
+        while (wave_.fill(std::span(left).first(members.size()))) {
+            const auto segments = wave_.segments();
+            lists_.fill(
+                segments.size(), [&](std::size_t s) { return segments[s]; }, block_count);
+            for (std::uint32_t block = 0; block < block_count; ++block) {
+                take_cells(block);
+                values_.take(members, block, stride_);
+            }
+        }
+        for (std::uint32_t block = 0; block < block_count; ++block) {
+            sparse_[block].take(members, block, stride_);
+        }
+    }
+
+  private:
+    using Lists = CellLists<Wave::kMaxSegments>;
+
+    // In the order of the contract: sparse values to their own sums; of the others first those
+    // of 8 bits, then of 16, then floats.
+    void take_cells(std::uint32_t block) {
+        wide_.clear();
+        for (const ListedCell& listed : lists_.of_block(block)) {
+            const Wave::Lanes& lanes = wave_.lanes(listed.segment);
+            const std::uint8_t* cell = listed.cell;
+            CellTag tag = listed.tag;
+            if (transport::is_split(tag)) {
+                cell = add_sparse(block, cell, lanes, transport::kHighPart);
+                tag = transport::low_tag(tag);
+            }
+            switch (tag) {
+                case CellTag::sparse8:
+                    add_sparse(block, cell, lanes, 1);
+                    break;
+                case CellTag::dense8:
+                    add_dense8(cell, lanes);
+                    break;
+                case CellTag::bitmap8:
+                    add_bitmap8(cell, lanes);
+                    break;
+                default:
+                    wide_.push_back({cell, tag, listed.segment});
+                    break;
+            }
+        }
+        for (const bool floats : {false, true}) {
+            for (const ListedCell& listed : wide_) {
+                if ((listed.tag == CellTag::dense32f) == floats) {
+                    add_wide(listed);
+                }
+            }
+        }
+    }
+
+    const std::uint8_t* add_sparse(std::uint32_t block,
+                                   const std::uint8_t* cell,
+                                   const Wave::Lanes& lanes,
+                                   float scale) {
+        const std::size_t count = cell[0];
+        const std::uint8_t* slots = cell + 1;
+        const std::uint8_t* values = slots + count;
+        LaneSums& sums = sparse_[block];
+        with_active_lanes(lanes.weights, lanes.active, lanes.active_count, scale,
+                          [&](const auto& active) HWY_ATTR {
+                              for (std::size_t i = 0; i < count; ++i) {
+                                  sums.touch_row_of(slots[i]);
+                                  active.add(kFloatFromByte[values[i]],
+                                             sums.slot(slots[i], stride_));
+                              }
+                          });
+        return values + count;
+    }
+
+    void add_dense8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
+        values_.touch_rows(kAllRows);
+        with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
+                          [&](const auto& active) HWY_ATTR {
+                              for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                                  active.add(kFloatFromByte[cell[slot]],
+                                             values_.slot(slot, stride_));
+                              }
+                          });
+    }
+
+    void add_bitmap8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
+        values_.touch_rows(rows_of_bitmap(cell));
+        const std::uint8_t* packed = cell + transport::kBitmapBytes;
+        with_active_lanes(
+            lanes.weights, lanes.active, lanes.active_count, 1,
+            [&](const auto& active) HWY_ATTR {
+                for_each_value(cell, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
+                    active.add(kFloatFromByte[packed[rank]], values_.slot(slot, stride_));
+                });
+            });
+    }
+
+    // Rare: decoded as the specification does.
+    void add_wide(const ListedCell& listed) {
+        transport::DecodedCell values;
+        transport::decode_cell(listed.tag, listed.cell, values);
+        const Wave::Lanes& lanes = wave_.lanes(listed.segment);
+        values_.touch_rows(kAllRows);
+        with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
+                          [&](const auto& active) HWY_ATTR {
+                              for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                                  active.add(values[slot], values_.slot(slot, stride_));
+                              }
+                          });
+    }
+
+    std::span<const BatchMember> members_;
+    std::size_t stride_ = 0;
+    Wave wave_;
+    Lists lists_;
+    std::vector<ListedCell> wide_;
+    LaneSums values_;
+    std::array<LaneSums, transport::kMaxBlocksPerShard> sparse_;
+};
+
+}  // namespace
+
+void accumulate_members(std::span<const BatchMember> members, std::uint32_t block_count) {
+    thread_local const auto workspace = std::make_unique<Workspace>();
+    workspace->accumulate(members, block_count);
+}
+
+#endif  // HWY_SCALAR
+
+}  // namespace relume::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace relume::engine {
+
+HWY_EXPORT(accumulate_members);
+
+void accumulate_batch_scalar(std::span<const BatchMember> members, std::uint32_t block_count) {
+    for (const BatchMember& member : members) {
+        accumulate_segments_scalar(member.segments, block_count, member.targets);
+    }
+}
+
+void accumulate_batch(std::span<const BatchMember> members, std::uint32_t block_count) {
+    static const bool scalar = scalar_is_forced();
+    if (scalar) {
+        accumulate_batch_scalar(members, block_count);
+        return;
+    }
+    apply_forced_target();
+    HWY_DYNAMIC_DISPATCH(accumulate_members)(members, block_count);
+}
+
+}  // namespace relume::engine
+#endif
