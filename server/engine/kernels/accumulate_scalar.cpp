@@ -12,23 +12,21 @@ using transport::DecodedCell;
 using transport::kBlockSize;
 using transport::kColours;
 
-enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, sparse };
+enum class CellKind : std::uint8_t { empty, dense8, dense16, floats, packed };
 
 // Of the low part, if the cell is split.
 CellKind kind_of(CellTag tag) {
     switch (transport::is_split(tag) ? transport::low_tag(tag) : tag) {
-        case CellTag::empty:
-            return CellKind::empty;
         case CellTag::dense8:
-        case CellTag::bitmap8:
-            return CellKind::bits8;
+            return CellKind::dense8;
         case CellTag::dense16:
-        case CellTag::bitmap16:
-            return CellKind::bits16;
+            return CellKind::dense16;
         case CellTag::dense32f:
             return CellKind::floats;
         case CellTag::sparse8:
-            return CellKind::sparse;
+        case CellTag::bitmap8:
+        case CellTag::bitmap16:
+            return CellKind::packed;
         default:
             return CellKind::empty;
     }
@@ -63,7 +61,7 @@ bool add_cells(std::span<const WeightedSegment> segments,
         DecodedCell values;
         if (transport::is_split(tag)) {
             const std::uint8_t* low = transport::decode_cell(CellTag::sparse8, cell, values);
-            if (kind == CellKind::sparse) {
+            if (kind == CellKind::packed) {
                 add_values(values, segments[s].weights, transport::kHighPart, sums);
                 any = true;
             }
@@ -104,7 +102,8 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
             const auto group_cells = std::span(cells).subspan(first, group.size());
             BlockSums sums{};
             bool any = false;
-            for (const CellKind kind : {CellKind::bits8, CellKind::bits16, CellKind::floats}) {
+            for (const CellKind kind :
+                 {CellKind::dense8, CellKind::dense16, CellKind::floats}) {
                 any = add_cells(group, group_cells, block, kind, sums) || any;
             }
             if (any) {
@@ -113,7 +112,7 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
             first += group.size();
         }
         BlockSums sums{};
-        if (add_cells(segments, cells, block, CellKind::sparse, sums)) {
+        if (add_cells(segments, cells, block, CellKind::packed, sums)) {
             add_to_targets(sums, block, targets);
         }
         for (std::size_t s = 0; s < segments.size(); ++s) {
