@@ -99,11 +99,11 @@ void add_rooms(OptionSet& options, Configuration& c) {
                              "How long a room is kept that everybody left");
     options.add_milliseconds("settle-ms", room.settle_delay,
                              "A state unchanged for so long gets its bit-exact image");
-    options.add_milliseconds("refinement-interval-ms", room.refinement_interval,
+    options.add_milliseconds("refinement-interval-ms", room.images.refinement_interval,
                              "Least time between two images that converge");
-    options.add_count("moving-quality", room.moving_jpeg_quality,
+    options.add_count("moving-quality", room.images.moving_jpeg_quality,
                       "JPEG quality while the state changes", 1, 100);
-    options.add_count("converging-quality", room.converging_jpeg_quality,
+    options.add_count("converging-quality", room.images.converging_jpeg_quality,
                       "JPEG quality while an image converges", 1, 100);
 }
 

@@ -111,15 +111,17 @@ void Metrics::count_step(const engine::StepReport& step, double relight_seconds)
     families_->relight_seconds.Observe(relight_seconds);
 }
 
+void Metrics::observe_compose(double seconds) {
+    families_->compose_seconds.Observe(seconds);
+}
+
 void Metrics::count_image(wire::ImageEncoding encoding,
                           std::size_t bytes,
-                          double compose_seconds,
                           double encode_seconds) {
     const bool jpeg = encoding == wire::ImageEncoding::jpeg;
     (jpeg ? families_->jpeg_images : families_->half_images).Increment();
     (jpeg ? families_->jpeg_bytes : families_->half_bytes)
         .Increment(static_cast<double>(bytes));
-    families_->compose_seconds.Observe(compose_seconds);
     families_->encode_seconds.Observe(encode_seconds);
 }
 

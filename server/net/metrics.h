@@ -29,10 +29,8 @@ class Metrics {
     // From a changed state to lighting coefficients and background.
     void observe_lighting(double seconds);
     void count_step(const engine::StepReport& step, double relight_seconds);
-    void count_image(wire::ImageEncoding encoding,
-                     std::size_t bytes,
-                     double compose_seconds,
-                     double encode_seconds);
+    void observe_compose(double seconds);
+    void count_image(wire::ImageEncoding encoding, std::size_t bytes, double encode_seconds);
     void observe_edit_to_image(double seconds);
     void count_dropped_image();
     void count_sent(std::size_t bytes);

@@ -1,6 +1,7 @@
 #include "server/net/relighter.h"
 
 #include <Imath/ImathMath.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -63,7 +64,8 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene, Metrics& metrics)
     : scene_(std::move(scene)),
       metrics_(metrics),
       session_(scene_->engine, wire::Strategy{}),
-      composer_(scene_->sky, scene_->engine->image().width, scene_->engine->image().height) {}
+      composer_(std::make_shared<FrameComposer>(
+          scene_->sky, scene_->engine->image().width, scene_->engine->image().height)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& state,
                                                      const NamedEnvironments& environments) {
@@ -77,11 +79,11 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
     if (!state_ || state_->background != state.background ||
         (rig_changed && sees_environment)) {
-        composer_.set_background(state.background, rig_);
+        composer_->set_background(state.background, rig_);
         composed_ = false;
     }
     if (!state_ || state_->display != state.display) {
-        display_.emplace(state.display);
+        display_ = std::make_shared<const DisplayTable>(state.display);
     }
     session_.set_strategy(state.strategy);
     state_ = state;
@@ -113,11 +115,23 @@ void Relighter::set_rig(const wire::SessionState& state,
     session_.set_lighting(coefficients_);
 }
 
-void Relighter::advance() {
+void Relighter::advance_together(std::span<Relighter* const> relighters) {
     const Clock::time_point begin = Clock::now();
-    const engine::StepReport step = session_.advance(budget_for_relighting());
-    lighting_is_new_ = false;
+    std::vector<engine::SessionTurn> turns;
+    for (Relighter* relighter : relighters) {
+        turns.push_back({.session = &relighter->session_,
+                         .budget = relighter->budget_for_relighting(relighters.size()),
+                         .report = {}});
+    }
+    engine::Session::advance_together(turns);
     const Clock::duration spent = Clock::now() - begin;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        relighters[i]->stepped(turns[i].report, spent);
+    }
+}
+
+void Relighter::stepped(const engine::StepReport& step, Clock::duration spent) {
+    lighting_is_new_ = false;
     metrics_.count_step(step, seconds(spent));
     relight_time_ += spent;
     applied_ += step.applied;
@@ -128,10 +142,14 @@ void Relighter::advance() {
     }
 }
 
-wire::Budget Relighter::budget_for_relighting() const {
+wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
     wire::Budget budget = state_->budget;
     if (budget.milliseconds) {
-        const double taken = picture_ms_ + (lighting_is_new_ ? lighting_ms_ : 0);
+        // All of them are lit, composed and encoded on the same threads.
+        const double rounds = std::max(
+            1.0, static_cast<double>(sessions) / tbb::this_task_arena::max_concurrency());
+        const double taken =
+            rounds * (compose_ms_ + encode_ms_ + (lighting_is_new_ ? lighting_ms_ : 0));
         budget.milliseconds =
             std::max(kLeastShare * *budget.milliseconds, *budget.milliseconds - taken);
     }
@@ -139,71 +157,47 @@ wire::Budget Relighter::budget_for_relighting() const {
 }
 
 void Relighter::compose_if_changed() {
-    compose_time_ = {};
     if (composed_) {
         return;
     }
     const Clock::time_point begin = Clock::now();
-    composer_.compose(session_);
-    compose_time_ = Clock::now() - begin;
+    composer_->compose(session_);
+    const Clock::duration spent = Clock::now() - begin;
     composed_ = true;
+    metrics_.observe_compose(seconds(spent));
+    blend(compose_ms_, milliseconds(spent));
 }
 
-template <typename AppendPayload>
-SharedImageFrame Relighter::encode(const ImageStamp& stamp,
-                                   wire::ImageEncoding encoding,
-                                   const AppendPayload& append_payload) {
+Picture Relighter::picture(const ImageStamp& stamp,
+                           wire::ImageEncoding encoding,
+                           int jpeg_quality) {
     compose_if_changed();
-    const Clock::time_point begin = Clock::now();
-    auto frame = std::make_shared<ImageFrame>();
-    frame->bytes.resize(wire::kImageHeaderBytes);
-    append_payload(frame->bytes);
-    const Clock::duration encode_time = Clock::now() - begin;
-    if (encoding == wire::ImageEncoding::jpeg) {
-        blend(picture_ms_, milliseconds(compose_time_ + encode_time));
-    }
     const transport::TileGrid& image = scene_->engine->image();
     const bool exact = session_.exact();
-    frame->header = {
-        .encoding = encoding,
-        .width = image.width,
-        .height = image.height,
-        .revision = stamp.revision,
-        .sequence = stamp.sequence,
-        .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),
-        .exact = exact,
-        .has_alpha = encoding == wire::ImageEncoding::half_planes && composer_.has_alpha(),
-        .edit_to_image_ms = static_cast<float>(milliseconds(begin - stamp.edit_read_at)),
-        .relight_ms = static_cast<float>(milliseconds(relight_time_)),
-        .encode_ms = static_cast<float>(milliseconds(encode_time)),
-        .coefficients_applied = applied_,
-        .payload_bytes =
-            static_cast<std::uint32_t>(frame->bytes.size() - wire::kImageHeaderBytes),
-        .coefficients_remaining = exact ? 0 : remaining_};
-    const auto header = wire::encode_image_header(frame->header);
-    std::copy(header.begin(), header.end(), frame->bytes.begin());
-    metrics_.count_image(encoding, frame->bytes.size(), seconds(compose_time_),
-                         seconds(encode_time));
+    Picture picture{
+        .header = {.encoding = encoding,
+                   .width = image.width,
+                   .height = image.height,
+                   .revision = stamp.revision,
+                   .sequence = stamp.sequence,
+                   .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),
+                   .exact = exact,
+                   .has_alpha =
+                       encoding == wire::ImageEncoding::half_planes && composer_->has_alpha(),
+                   .edit_to_image_ms =
+                       static_cast<float>(milliseconds(Clock::now() - stamp.edit_read_at)),
+                   .relight_ms = static_cast<float>(milliseconds(relight_time_)),
+                   .encode_ms = 0,
+                   .coefficients_applied = applied_,
+                   .payload_bytes = 0,
+                   .coefficients_remaining = exact ? 0 : remaining_},
+        .jpeg_quality = jpeg_quality,
+        .composer = composer_,
+        .display = display_};
     image_changed_ = false;
     relight_time_ = {};
     applied_ = 0;
-    return frame;
-}
-
-SharedImageFrame Relighter::encode_jpeg(const ImageStamp& stamp, int quality) {
-    return encode(stamp, wire::ImageEncoding::jpeg, [&](std::vector<std::byte>& out) {
-        codes_.resize(composer_.rgb().size());
-        composer_.write_codes(*display_, codes_);
-        const transport::TileGrid& image = scene_->engine->image();
-        const auto payload = jpeg_.encode(codes_, image.width, image.height, quality);
-        out.insert(out.end(), payload.begin(), payload.end());
-    });
-}
-
-SharedImageFrame Relighter::encode_half(const ImageStamp& stamp) {
-    return encode(stamp, wire::ImageEncoding::half_planes, [&](std::vector<std::byte>& out) {
-        half_.append_to(out, composer_.half_image());
-    });
+    return picture;
 }
 
 }  // namespace relume::net

@@ -1,7 +1,6 @@
-// What one room computes: its state as light, the light through the engine, the image encoded.
+// What one room computes: its state as light, the light through the engine, the image composed.
 #pragma once
 
-#include "protocol/wire/half_image.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/session_state.h"
 #include "server/engine/session.h"
@@ -11,9 +10,8 @@
 #include "server/net/display_table.h"
 #include "server/net/environment.h"
 #include "server/net/frame_composer.h"
-#include "server/net/image_frame.h"
-#include "server/net/jpeg_encoder.h"
 #include "server/net/metrics.h"
+#include "server/net/picture.h"
 #include "server/net/scene_library.h"
 
 #include <cstdint>
@@ -48,53 +46,52 @@ class Relighter {
     std::vector<wire::ErrorMessage> set_state(const wire::SessionState& state,
                                               const NamedEnvironments& environments);
 
-    // One image's worth of relighting: the state's milliseconds less what lighting, composing
-    // and encoding have been taking, so that the image is ready when they are over.
-    void advance();
+    // One image's worth of relighting for each, all of one scene and not at rest, in one sweep:
+    // the state's milliseconds less what lighting, composing and encoding have been taking, so
+    // that the images are ready when they are over.
+    static void advance_together(std::span<Relighter* const> relighters);
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
     [[nodiscard]] double stated_error() const { return session_.stated_error(); }
     // The image differs from the one encoded last.
     [[nodiscard]] bool image_changed() const { return image_changed_; }
 
-    [[nodiscard]] SharedImageFrame encode_jpeg(const ImageStamp& stamp, int quality);
-    [[nodiscard]] SharedImageFrame encode_half(const ImageStamp& stamp);
+    // The image as it stands, composed; the picture before must have been encoded.
+    [[nodiscard]] Picture picture(const ImageStamp& stamp,
+                                  wire::ImageEncoding encoding,
+                                  int jpeg_quality);
+    // What encoding a JPEG has taken lately.
+    void encoding_took(double milliseconds) { encode_ms_ = milliseconds; }
 
   private:
     void set_rig(const wire::SessionState& state,
                  const NamedEnvironments& environments,
                  std::vector<wire::ErrorMessage>& problems);
-    // Milliseconds of both are measured in `encode`.
-    template <typename AppendPayload>
-    [[nodiscard]] SharedImageFrame encode(const ImageStamp& stamp,
-                                          wire::ImageEncoding encoding,
-                                          const AppendPayload& append_payload);
+    void stepped(const engine::StepReport& step, Clock::duration spent);
     void compose_if_changed();
-    [[nodiscard]] wire::Budget budget_for_relighting() const;
+    // For relighting, of all the milliseconds that so many sessions take together.
+    [[nodiscard]] wire::Budget budget_for_relighting(std::size_t sessions) const;
 
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
     engine::Session session_;
-    FrameComposer composer_;
-    JpegEncoder jpeg_;
-    wire::HalfImageEncoder half_;
+    std::shared_ptr<FrameComposer> composer_;
 
     std::optional<wire::SessionState> state_;
     NamedEnvironments environments_;
     light::LightRig rig_;
     light::LightCubemap cubemap_;
     std::vector<float> coefficients_;
-    std::optional<DisplayTable> display_;
-    std::vector<std::uint8_t> codes_;
+    std::shared_ptr<const DisplayTable> display_;
 
     // Running means of what is not relighting.
     double lighting_ms_ = 0;  // of a new state
-    double picture_ms_ = 0;   // composing and encoding
+    double compose_ms_ = 0;
+    double encode_ms_ = 0;
     bool lighting_is_new_ = false;
 
     bool composed_ = false;
     bool image_changed_ = true;
-    Clock::duration compose_time_{};
     // Since the last image:
     Clock::duration relight_time_{};
     std::uint32_t applied_ = 0;

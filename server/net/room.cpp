@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <utility>
@@ -14,18 +16,20 @@ Room::Room(std::string name,
            std::shared_ptr<const ServedScene> scene,
            std::shared_ptr<Environment> environment,
            const EnvironmentLibrary& library,
-           WorkerPool& workers,
+           RoomThreads threads,
            Metrics& metrics,
            const RoomOptions& options)
     : name_(std::move(name)),
       scene_(std::move(scene)),
       library_(library),
-      workers_(workers),
+      threads_(threads),
       metrics_(metrics),
       options_(options),
       empty_since_(Clock::now()),
       answered_edit_(*empty_since_),
-      last_edit_(*empty_since_) {
+      last_edit_(*empty_since_),
+      images_(scene_, metrics, options.images),
+      encoder_(metrics) {
     state_.environment.name = environment->description().name;
     environments_.environment = std::move(environment);
 }
@@ -43,7 +47,7 @@ bool Room::join(const SharedOutbox& viewer) {
     if (settled_frame_) {
         viewer->put_image(settled_frame_);
     } else {
-        workers_.enqueue(shared_from_this(), WorkPriority::edit);
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::edit);
     }
     return true;
 }
@@ -130,15 +134,15 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
         change.edit_id = viewer.get() == &author ? std::optional(edit.id) : std::nullopt;
         viewer->put_change(change);
     }
-    workers_.enqueue(shared_from_this(), WorkPriority::edit);
+    threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *untaken_edit_);
 }
 
 void Room::acknowledge(Outbox& viewer, std::uint64_t sequence) {
     viewer.acknowledge(sequence);
     const std::lock_guard lock(mutex_);
     // An edit's image may have been held back because nobody would have taken it.
-    if (unshown_edit_ && viewer.wants_moving_image()) {
-        workers_.enqueue(shared_from_this(), WorkPriority::edit);
+    if (unshown_edit_ && !encoding_ && viewer.wants_moving_image()) {
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *unshown_edit_);
     }
 }
 
@@ -156,7 +160,7 @@ void Room::close_all(wire::CloseCode code) {
 
 bool Room::has_pending_edit() const {
     const std::lock_guard lock(mutex_);
-    return (untaken_edit_ || unshown_edit_) && !viewers_.empty();
+    return (untaken_edit_ || unshown_edit_ || encoding_) && !viewers_.empty();
 }
 
 std::optional<Clock::time_point> Room::empty_since() const {
@@ -164,24 +168,98 @@ std::optional<Clock::time_point> Room::empty_since() const {
     return empty_since_;
 }
 
-void Room::run() noexcept {
+class Room::Encoding : public WorkItem {
+  public:
+    Encoding(std::shared_ptr<Room> room, Picture picture)
+        : room_(std::move(room)), picture_(std::move(picture)) {}
+    void run(std::span<const std::shared_ptr<WorkItem>> /*others*/) noexcept override {
+        room_->encode(picture_);
+    }
+
+  private:
+    const std::shared_ptr<Room> room_;
+    const Picture picture_;
+};
+
+template <typename Work>
+void Room::Turn::attempt(const Work& work) {
+    if (!failure.empty()) {
+        return;
+    }
     try {
-        if (const std::optional<Slice> slice = begin_slice()) {
-            end_slice(*slice, perform(*slice));
-        }
-    } catch (const std::exception& failure) {
-        fail_slice(failure.what());
+        work();
+    } catch (const std::exception& reason) {
+        failure = reason.what();
     }
 }
 
-std::optional<Room::Slice> Room::begin_slice() {
+void Room::run(std::span<const std::shared_ptr<WorkItem>> others) noexcept {
+    std::vector<Turn> turns;
+    const auto add = [&turns](Room& room) {
+        if (std::optional<RoomSlice> slice = room.begin_slice()) {
+            turns.push_back(
+                {.room = &room, .slice = std::move(*slice), .result = {}, .failure = {}});
+        }
+    };
+    add(*this);
+    for (const std::shared_ptr<WorkItem>& other : others) {
+        add(static_cast<Room&>(*other));  // who is of our company is a room of our scene
+    }
+    perform(turns);
+    for (Turn& turn : turns) {
+        if (turn.failure.empty()) {
+            turn.room->end_slice(turn.slice, std::move(turn.result));
+        } else {
+            turn.room->images_.forget();
+            turn.room->fail(turn.failure);
+        }
+    }
+}
+
+void Room::perform(std::span<Turn> turns) {
+    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
+        Turn& turn = turns[i];
+        turn.attempt([&] {
+            // Times what it does: others' work must not slip in between.
+            tbb::this_task_arena::isolate(
+                [&] { turn.result.problems = turn.room->images_.begin(turn.slice); });
+        });
+    });
+    std::vector<Relighter*> relighters;
+    for (Turn& turn : turns) {
+        Relighter* const next =
+            turn.failure.empty() ? turn.room->images_.next_to_relight() : nullptr;
+        if (next != nullptr) {
+            relighters.push_back(next);
+        }
+    }
+    try {
+        Relighter::advance_together(relighters);
+    } catch (const std::exception& reason) {
+        for (Turn& turn : turns) {
+            turn.failure = reason.what();
+        }
+    }
+    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
+        Turn& turn = turns[i];
+        turn.attempt([&] {
+            tbb::this_task_arena::isolate([&] {
+                auto problems = std::move(turn.result.problems);
+                turn.result = turn.room->images_.end(turn.slice);
+                turn.result.problems = std::move(problems);
+            });
+        });
+    });
+}
+
+std::optional<RoomSlice> Room::begin_slice() {
     const std::lock_guard lock(mutex_);
     // Who runs looks again when it is done; without viewers the room stands still.
     if (running_ || viewers_.empty()) {
         return std::nullopt;
     }
     running_ = true;
-    Slice slice;
+    RoomSlice slice;
     slice.revision = revision_;
     slice.state_changed = relit_revision_ != revision_;
     if (slice.state_changed) {
@@ -197,98 +275,90 @@ std::optional<Room::Slice> Room::begin_slice() {
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
+    slice.encoder_is_free = !encoding_;
+    slice.encode_ms = encode_ms_;
     slice.viewer_wants_moving =
         std::any_of(viewers_.begin(), viewers_.end(),
                     [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
     return slice;
 }
 
-Room::Result Room::perform(const Slice& slice) {
-    Result result;
-    if (!relighter_) {
-        relighter_ = std::make_unique<Relighter>(scene_, metrics_);
-    }
-    if (slice.state_changed) {
-        result.problems = relighter_->set_state(slice.state, slice.environments);
-    }
-    if (!relighter_->at_rest()) {
-        relighter_->advance();
-    }
-    result.at_rest = relighter_->at_rest();
-    const ImageStamp stamp{.revision = slice.revision,
-                           .sequence = sequence_ + 1,
-                           .edit_read_at = slice.edit_read_at};
-    const Clock::time_point now = Clock::now();
-    if (result.at_rest && slice.settled_image_due && now >= slice.settle_at) {
-        result.frame = relighter_->encode_half(stamp);
-    } else if (moving_image_is_due(slice, now)) {
-        result.frame = relighter_->encode_jpeg(stamp, slice.first_image_due
-                                                          ? options_.moving_jpeg_quality
-                                                          : options_.converging_jpeg_quality);
-    }
-    if (result.frame) {
-        ++sequence_;
-        last_image_at_ = now;
-        last_image_error_ = relighter_->stated_error();
-    }
-    return result;
-}
-
-bool Room::moving_image_is_due(const Slice& slice, Clock::time_point now) const {
-    if (!slice.viewer_wants_moving || !relighter_->image_changed()) {
-        return false;
-    }
-    return slice.first_image_due || relighter_->at_rest() ||
-           now - last_image_at_ >= options_.refinement_interval ||
-           relighter_->stated_error() <= last_image_error_ / 2;
-}
-
-void Room::end_slice(const Slice& slice, Result result) {
+void Room::end_slice(const RoomSlice& slice, SliceResult result) {
     const std::lock_guard lock(mutex_);
     running_ = false;
+    at_rest_ = result.at_rest;
     for (const wire::ErrorMessage& problem : result.problems) {
         metrics_.count_error(problem.code);
         for (const SharedOutbox& viewer : viewers_) {
             viewer->put_error(problem);
         }
     }
-    if (result.frame) {
-        deliver_locked(slice, result.frame);
+    if (result.picture) {
+        if (slice.first_image_due) {
+            metrics_.observe_edit_to_image(result.picture->header.edit_to_image_ms / 1000.0);
+            answered_edit_ = slice.edit_read_at;
+            unshown_edit_.reset();
+        }
+        encoding_ = true;
+        threads_.encoders.enqueue(
+            std::make_shared<Encoding>(shared_from_this(), std::move(*result.picture)),
+            slice.first_image_due ? WorkPriority::edit : WorkPriority::refinement,
+            slice.edit_read_at);
     }
-    queue_next_slice_locked(slice, result.at_rest);
+    queue_next_slice_locked();
 }
 
-void Room::deliver_locked(const Slice& slice, const SharedImageFrame& frame) {
-    if (slice.first_image_due) {
-        metrics_.observe_edit_to_image(frame->header.edit_to_image_ms / 1000.0);
-        answered_edit_ = slice.edit_read_at;
-        unshown_edit_.reset();
+void Room::encode(const Picture& picture) noexcept {
+    try {
+        deliver(encoder_.encode(picture));
+    } catch (const std::exception& reason) {
+        {
+            const std::lock_guard lock(mutex_);
+            encoding_ = false;
+        }
+        fail(reason.what());
     }
+}
+
+void Room::deliver(const SharedImageFrame& frame) {
+    const std::lock_guard lock(mutex_);
+    encoding_ = false;
     if (frame->settled() && frame->header.revision == revision_) {
         settled_frame_ = frame;
+    }
+    if (!frame->settled()) {
+        constexpr double kNewest = 0.2;
+        encode_ms_ += kNewest * (double{frame->header.encode_ms} - encode_ms_);
     }
     for (const SharedOutbox& viewer : viewers_) {
         if (viewer->put_image(frame)) {
             metrics_.count_dropped_image();
         }
     }
+    if (unshown_edit_ && !viewers_.empty()) {
+        // Its slice found the encoder busy.
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *unshown_edit_);
+    } else if (!running_) {
+        queue_next_slice_locked();
+    }
 }
 
-void Room::queue_next_slice_locked(const Slice& slice, bool at_rest) {
+void Room::queue_next_slice_locked() {
     if (viewers_.empty()) {
         return;
     }
-    if (revision_ != slice.revision) {
-        workers_.enqueue(shared_from_this(), WorkPriority::edit);
-    } else if (!at_rest) {
-        workers_.enqueue(shared_from_this(), WorkPriority::refinement);
-    } else if (!settled_frame_) {
-        workers_.enqueue_after(shared_from_this(), WorkPriority::refinement,
-                               slice.settle_at - Clock::now());
+    if (revision_ != relit_revision_) {
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
+                                 untaken_edit_.value_or(Clock::now()));
+    } else if (!at_rest_) {
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::refinement);
+    } else if (!settled_frame_ && !encoding_) {
+        threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
+                                       last_edit_ + options_.settle_delay - Clock::now());
     }
 }
 
-void Room::fail_slice(const char* reason) {
+void Room::fail(const std::string& reason) {
     spdlog::error("room_failed room={} scene={} reason={:?}", name_, scene_->name, reason);
     const wire::ErrorMessage error{.code = wire::ErrorCode::internal,
                                    .message = "the image could not be computed",
@@ -304,7 +374,6 @@ void Room::fail_slice(const char* reason) {
         viewer->put_error(error);
     }
     // The next edit begins afresh.
-    relighter_.reset();
     relit_revision_.reset();
 }
 

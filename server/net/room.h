@@ -6,9 +6,11 @@
 #include "protocol/wire/session_state.h"
 #include "server/net/clock.h"
 #include "server/net/environment_library.h"
+#include "server/net/frame_encoder.h"
 #include "server/net/metrics.h"
 #include "server/net/outbox.h"
-#include "server/net/relighter.h"
+#include "server/net/room_images.h"
+#include "server/net/room_slice.h"
 #include "server/net/scene_library.h"
 #include "server/net/worker_pool.h"
 
@@ -26,14 +28,19 @@ struct RoomOptions {
     wire::Limits limits;
     // A state that nobody changed for so long gets its bit-exact image.
     std::chrono::milliseconds settle_delay{50};
-    // While an image converges, the least time between two of them.
-    std::chrono::milliseconds refinement_interval{33};
-    int moving_jpeg_quality = 80;
-    int converging_jpeg_quality = 95;
+    ImageOptions images;
+};
+
+// The threads that rooms share.
+struct RoomThreads {
+    WorkerPool& workers;   // relight
+    WorkerPool& encoders;  // encode
 };
 
 // Thread-safe. One slice of work runs at a time, on the workers; in between the room is in the
-// workers' queue if there is something to do, and nowhere if there is not.
+// workers' queue if there is something to do, and nowhere if there is not. Rooms of one scene
+// that wait together are relit together. One image at a time is with the encoders, while the
+// next slice runs.
 class Room : public WorkItem, public std::enable_shared_from_this<Room> {
   public:
     using SharedOutbox = std::shared_ptr<Outbox>;
@@ -43,7 +50,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
          std::shared_ptr<const ServedScene> scene,
          std::shared_ptr<Environment> environment,
          const EnvironmentLibrary& library,
-         WorkerPool& workers,
+         RoomThreads threads,
          Metrics& metrics,
          const RoomOptions& options);
 
@@ -68,34 +75,31 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     // When its last client left; nothing while there is one.
     [[nodiscard]] std::optional<Clock::time_point> empty_since() const;
 
-    void run() noexcept override;
+    [[nodiscard]] const void* company() const noexcept override { return scene_.get(); }
+    void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
 
   private:
-    // What one slice of work needs to know, copied under the lock.
-    struct Slice {
-        bool state_changed = false;
-        wire::SessionState state;  // set if it changed
-        NamedEnvironments environments;
-        std::uint64_t revision = 0;
-        Clock::time_point edit_read_at;
-        Clock::time_point settle_at;
-        bool viewer_wants_moving = false;
-        bool first_image_due = false;  // of an edit
-        bool settled_image_due = false;
-    };
-    struct Result {
-        std::vector<wire::ErrorMessage> problems;
-        SharedImageFrame frame;
-        bool at_rest = false;
-    };
+    // A room's slice on its way through `run`.
+    struct Turn {
+        Room* room = nullptr;
+        RoomSlice slice;
+        SliceResult result;
+        std::string failure;  // what went wrong, if anything
 
-    [[nodiscard]] std::optional<Slice> begin_slice();
-    [[nodiscard]] Result perform(const Slice& slice);
-    [[nodiscard]] bool moving_image_is_due(const Slice& slice, Clock::time_point now) const;
-    void end_slice(const Slice& slice, Result result);
-    void fail_slice(const char* reason);
-    void deliver_locked(const Slice& slice, const SharedImageFrame& frame);
-    void queue_next_slice_locked(const Slice& slice, bool at_rest);
+        // Does it, unless something has failed; notes what fails.
+        template <typename Work>
+        void attempt(const Work& work);
+    };
+    // Encodes one picture and hands the frame over.
+    class Encoding;
+
+    [[nodiscard]] std::optional<RoomSlice> begin_slice();
+    static void perform(std::span<Turn> turns);
+    void end_slice(const RoomSlice& slice, SliceResult result);
+    void encode(const Picture& picture) noexcept;
+    void deliver(const SharedImageFrame& frame);
+    void fail(const std::string& reason);
+    void queue_next_slice_locked();
     void broadcast_viewers_locked();
     [[nodiscard]] std::string snapshot_text_locked() const;
     [[nodiscard]] NamedEnvironments resolve_locked(const wire::SessionState& next,
@@ -104,7 +108,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     const std::string name_;
     const std::shared_ptr<const ServedScene> scene_;
     const EnvironmentLibrary& library_;
-    WorkerPool& workers_;
+    const RoomThreads threads_;
     Metrics& metrics_;
     const RoomOptions options_;
 
@@ -116,20 +120,20 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     std::optional<Clock::time_point> empty_since_;
     bool stopped_ = false;
     bool running_ = false;
+    bool encoding_ = false;
+    bool at_rest_ = false;  // as the last slice left it
     std::optional<std::uint64_t> relit_revision_;
     // When the earliest edit was read that no slice has taken, and that one has taken but no
-    // image shows; and the edit that the latest image answers.
+    // picture shows; and the edit that the latest picture answers.
     std::optional<Clock::time_point> untaken_edit_;
     std::optional<Clock::time_point> unshown_edit_;
     Clock::time_point answered_edit_;
     Clock::time_point last_edit_;
     SharedImageFrame settled_frame_;  // of the present revision only
+    double encode_ms_ = 0;            // of a JPEG, a running mean
 
-    // Of the worker that runs the slice; `running_` keeps it alone.
-    std::unique_ptr<Relighter> relighter_;
-    std::uint64_t sequence_ = 0;
-    Clock::time_point last_image_at_;
-    double last_image_error_ = 0;
+    RoomImages images_;     // of the worker that runs the slice; `running_` keeps it alone
+    FrameEncoder encoder_;  // of the encoder thread; `encoding_` keeps it alone
 };
 
 }  // namespace relume::net

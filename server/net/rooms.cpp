@@ -25,12 +25,12 @@ std::shared_ptr<Environment> require_environment(const EnvironmentLibrary& libra
 
 Rooms::Rooms(const SceneLibrary& scenes,
              const EnvironmentLibrary& environments,
-             WorkerPool& workers,
+             RoomThreads threads,
              Metrics& metrics,
              RoomsOptions options)
     : scenes_(scenes),
       environments_(environments),
-      workers_(workers),
+      threads_(threads),
       metrics_(metrics),
       options_(std::move(options)),
       first_environment_(require_environment(environments, options_.environment)) {}
@@ -72,7 +72,7 @@ std::shared_ptr<Room> Rooms::make_room_locked(const std::string& name,
                                               std::shared_ptr<const ServedScene> scene) {
     spdlog::info("room_opened room={} scene={}", name, scene->name);
     auto room = std::make_shared<Room>(name, std::move(scene), first_environment_,
-                                       environments_, workers_, metrics_, options_.room);
+                                       environments_, threads_, metrics_, options_.room);
     rooms_.emplace(name, room);
     metrics_.set_rooms(rooms_.size());
     return room;
@@ -81,7 +81,8 @@ std::shared_ptr<Room> Rooms::make_room_locked(const std::string& name,
 void Rooms::leave(Room& room, const Room::SharedOutbox& viewer) {
     room.leave(viewer);
     if (room.empty_since()) {
-        workers_.enqueue_after(shared_from_this(), WorkPriority::refinement, options_.linger);
+        threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
+                                       options_.linger);
     }
 }
 
@@ -103,7 +104,7 @@ bool Rooms::drop_longest_empty_locked() {
     return true;
 }
 
-void Rooms::run() noexcept {
+void Rooms::run(std::span<const std::shared_ptr<WorkItem>> /*others*/) noexcept {
     const std::lock_guard lock(mutex_);
     const Clock::time_point now = Clock::now();
     std::optional<Clock::time_point> next;
@@ -121,8 +122,8 @@ void Rooms::run() noexcept {
     });
     metrics_.set_rooms(rooms_.size());
     if (next) {
-        workers_.enqueue_after(shared_from_this(), WorkPriority::refinement,
-                               *next + options_.linger - now);
+        threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
+                                       *next + options_.linger - now);
     }
 }
 

@@ -30,7 +30,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     // Throws std::runtime_error if the library has no environment of that name.
     Rooms(const SceneLibrary& scenes,
           const EnvironmentLibrary& environments,
-          WorkerPool& workers,
+          RoomThreads threads,
           Metrics& metrics,
           RoomsOptions options);
 
@@ -47,7 +47,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     [[nodiscard]] bool has_pending_edit() const;
     void close_all(wire::CloseCode code);
 
-    void run() noexcept override;
+    void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
 
   private:
     [[nodiscard]] std::shared_ptr<Room> make_room_locked(
@@ -56,7 +56,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
 
     const SceneLibrary& scenes_;
     const EnvironmentLibrary& environments_;
-    WorkerPool& workers_;
+    const RoomThreads threads_;
     Metrics& metrics_;
     const RoomsOptions options_;
     const std::shared_ptr<Environment> first_environment_;

@@ -1,6 +1,7 @@
 #include "server/net/server.h"
 
 #include "protocol/transport/atomic_file.h"
+#include "server/engine/kernels/accumulate_batch.h"
 #include "server/net/access.h"
 #include "server/net/http_routes.h"
 #include "server/net/listener.h"
@@ -61,9 +62,13 @@ struct Server::Parts {
           access(c.token, OriginPolicy(c.allow_origins)),
           io(static_cast<int>(c.io_threads)),
           keep_running(io.get_executor()),
-          workers(c.workers),
-          rooms(std::make_shared<Rooms>(
-              scenes, with_folder(environments, c.environments), workers, metrics, c.rooms)),
+          workers(c.workers, engine::kMaxBatchMembers),
+          encoders(c.workers, 1),
+          rooms(std::make_shared<Rooms>(scenes,
+                                        with_folder(environments, c.environments),
+                                        RoomThreads{workers, encoders},
+                                        metrics,
+                                        c.rooms)),
           routes(scenes, environments, files, access, readiness, metrics),
           uploads(environments, access, upload_options_from(c)),
           slow_requests(kPreviewThreads + c.connection.concurrent_uploads),
@@ -90,6 +95,7 @@ struct Server::Parts {
     asio::io_context io;
     asio::executor_work_guard<asio::io_context::executor_type> keep_running;
     WorkerPool workers;
+    WorkerPool encoders;
     std::shared_ptr<Rooms> rooms;
     HttpRoutes routes;
     Uploads uploads;
@@ -195,6 +201,7 @@ void Server::drain() {
     parts.slow_requests.stop();
     parts.slow_requests.join();
     parts.workers.stop();
+    parts.encoders.stop();
     parts.opener = {};
     spdlog::info("drained connections_cut={} milliseconds={:.0f}", cut,
                  milliseconds(Clock::now() - begin));

@@ -5,14 +5,8 @@
 
 namespace relume::net {
 
-namespace {
-
-// Of so many slices one goes to a refinement that waits, however many edits come.
-constexpr std::size_t kEditsPerRefinement = 8;
-
-}  // namespace
-
-WorkerPool::WorkerPool(std::size_t threads) {
+WorkerPool::WorkerPool(std::size_t threads, std::size_t largest_company)
+    : largest_company_(largest_company) {
     threads_.reserve(threads);
     for (std::size_t i = 0; i < threads; ++i) {
         threads_.emplace_back([this] { work(); });
@@ -23,10 +17,12 @@ WorkerPool::~WorkerPool() {
     stop();
 }
 
-void WorkerPool::enqueue(std::shared_ptr<WorkItem> item, WorkPriority priority) {
+void WorkerPool::enqueue(std::shared_ptr<WorkItem> item,
+                         WorkPriority priority,
+                         Clock::time_point since) {
     {
         const std::lock_guard lock(mutex_);
-        enqueue_locked(std::move(item), priority);
+        enqueue_locked(std::move(item), priority, since);
     }
     wake_.notify_one();
 }
@@ -54,30 +50,33 @@ void WorkerPool::stop() {
     wake_.notify_all();
     threads_.clear();
     // Items may own the last reference to what owns them: let go of them without the lock.
-    Queue edits;
-    Queue refinements;
+    std::vector<Waiting> queue;
     std::vector<Delayed> delayed;
     const std::lock_guard lock(mutex_);
-    edits.swap(edits_);
-    refinements.swap(refinements_);
+    queue.swap(queue_);
     delayed.swap(delayed_);
 }
 
-void WorkerPool::enqueue_locked(std::shared_ptr<WorkItem> item, WorkPriority priority) {
-    if (stopping_ || std::find(edits_.begin(), edits_.end(), item) != edits_.end()) {
+void WorkerPool::enqueue_locked(std::shared_ptr<WorkItem> item,
+                                WorkPriority priority,
+                                Clock::time_point since) {
+    if (stopping_) {
         return;
     }
-    const auto waiting = std::find(refinements_.begin(), refinements_.end(), item);
-    if (priority == WorkPriority::refinement) {
-        if (waiting == refinements_.end()) {
-            refinements_.push_back(std::move(item));
+    const bool patient = priority == WorkPriority::refinement;
+    const Clock::time_point deadline = patient ? since + kRefinementPatience : since;
+    const auto waiting = std::find_if(queue_.begin(), queue_.end(),
+                                      [&](const Waiting& other) { return other.item == item; });
+    if (waiting != queue_.end()) {
+        if (waiting->deadline <= deadline) {
+            return;
         }
-        return;
+        queue_.erase(waiting);
     }
-    if (waiting != refinements_.end()) {
-        refinements_.erase(waiting);
-    }
-    edits_.push_back(std::move(item));
+    const auto place = std::upper_bound(
+        queue_.begin(), queue_.end(), deadline,
+        [](Clock::time_point time, const Waiting& other) { return time < other.deadline; });
+    queue_.insert(place, {.deadline = deadline, .priority = priority, .item = std::move(item)});
 }
 
 void WorkerPool::release_due_locked(Clock::time_point now) {
@@ -85,32 +84,38 @@ void WorkerPool::release_due_locked(Clock::time_point now) {
         if (delayed.due > now) {
             return false;
         }
-        enqueue_locked(std::move(delayed.item), delayed.priority);
+        enqueue_locked(std::move(delayed.item), delayed.priority, delayed.due);
         return true;
     });
 }
 
-std::shared_ptr<WorkItem> WorkerPool::next_locked() {
-    const bool refine =
-        edits_.empty() || (!refinements_.empty() && edits_in_a_row_ >= kEditsPerRefinement);
-    Queue& queue = refine ? refinements_ : edits_;
-    if (queue.empty()) {
-        return nullptr;
+std::vector<std::shared_ptr<WorkItem>> WorkerPool::next_locked() {
+    std::vector<std::shared_ptr<WorkItem>> next;
+    if (queue_.empty()) {
+        return next;
     }
-    edits_in_a_row_ = refine ? 0 : edits_in_a_row_ + 1;
-    std::shared_ptr<WorkItem> item = std::move(queue.front());
-    queue.pop_front();
-    return item;
+    const WorkPriority priority = queue_.front().priority;
+    const void* const company = queue_.front().item->company();
+    std::erase_if(queue_, [&](Waiting& waiting) {
+        const bool taken = next.empty() ||
+                           (next.size() < largest_company_ && company != nullptr &&
+                            waiting.priority == priority && waiting.item->company() == company);
+        if (taken) {
+            next.push_back(std::move(waiting.item));
+        }
+        return taken;
+    });
+    return next;
 }
 
 void WorkerPool::work() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         release_due_locked(Clock::now());
-        if (std::shared_ptr<WorkItem> item = next_locked()) {
+        if (auto items = next_locked(); !items.empty()) {
             lock.unlock();
-            item->run();
-            item.reset();
+            items.front()->run(std::span(items).subspan(1));
+            items.clear();
             lock.lock();
         } else if (delayed_.empty()) {
             wake_.wait(lock);

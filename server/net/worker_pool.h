@@ -6,9 +6,9 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -21,24 +21,36 @@ class WorkItem {
     WorkItem(const WorkItem&) = delete;
     WorkItem& operator=(const WorkItem&) = delete;
     virtual ~WorkItem() = default;
-    virtual void run() noexcept = 0;
+
+    // Items that give the same, and not null, may be run together.
+    [[nodiscard]] virtual const void* company() const noexcept { return nullptr; }
+    // With others of its company that were waiting too and are off the queue now.
+    virtual void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept = 0;
 };
 
 // Edits that someone waits for go before images that merely get better.
 enum class WorkPriority : std::uint8_t { edit, refinement };
 
-// Thread-safe. An item is in the queue at most once, so the queue is never longer than there
-// are items. With nothing queued no thread wakes.
+// Thread-safe. The queue is in the order of deadlines: an edit's is when it was read, a
+// refinement's some while after it was queued, so that edits go first and do not starve it. An
+// item is in the queue at most once, so the queue is never longer than there are items. With
+// nothing queued no thread wakes.
 class WorkerPool {
   public:
-    explicit WorkerPool(std::size_t threads);
+    // What a refinement waits at most while there are edits.
+    static constexpr std::chrono::milliseconds kRefinementPatience{100};
+
+    // Takes at most so many items of one company, all of one priority, off the queue together.
+    WorkerPool(std::size_t threads, std::size_t largest_company);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
     // As `stop`.
     ~WorkerPool();
 
-    // Queues the item, or promotes it if it waits with less priority.
-    void enqueue(std::shared_ptr<WorkItem> item, WorkPriority priority);
+    // Queues the item, or moves it forward if it waits with a later deadline.
+    void enqueue(std::shared_ptr<WorkItem> item,
+                 WorkPriority priority,
+                 Clock::time_point since = Clock::now());
     // Queues the item after a while; replaces an earlier delay of the same item.
     void enqueue_after(std::shared_ptr<WorkItem> item,
                        WorkPriority priority,
@@ -47,7 +59,11 @@ class WorkerPool {
     void stop();
 
   private:
-    using Queue = std::deque<std::shared_ptr<WorkItem>>;
+    struct Waiting {
+        Clock::time_point deadline;
+        WorkPriority priority;
+        std::shared_ptr<WorkItem> item;
+    };
     struct Delayed {
         Clock::time_point due;
         WorkPriority priority;
@@ -55,16 +71,18 @@ class WorkerPool {
     };
 
     void work();
-    void enqueue_locked(std::shared_ptr<WorkItem> item, WorkPriority priority);
+    void enqueue_locked(std::shared_ptr<WorkItem> item,
+                        WorkPriority priority,
+                        Clock::time_point since);
     void release_due_locked(Clock::time_point now);
-    [[nodiscard]] std::shared_ptr<WorkItem> next_locked();
+    // The first of the queue, and who may go with it; nothing when it is empty.
+    [[nodiscard]] std::vector<std::shared_ptr<WorkItem>> next_locked();
 
+    const std::size_t largest_company_;
     std::mutex mutex_;
     std::condition_variable wake_;
-    Queue edits_;
-    Queue refinements_;
+    std::vector<Waiting> queue_;  // by deadline; of equals the earlier queued first
     std::vector<Delayed> delayed_;
-    std::size_t edits_in_a_row_ = 0;
     bool stopping_ = false;
     std::vector<std::jthread> threads_;
 };

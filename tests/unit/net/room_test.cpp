@@ -46,9 +46,13 @@ class RoomTest : public testing::Test {
     RoomTest() {
         scenes_.open_all(folder_.path());
         environments_.add_upload("map", half_bright_map());
-        rooms_ = std::make_shared<Rooms>(scenes_, environments_, workers_, metrics_, options());
+        rooms_ = std::make_shared<Rooms>(scenes_, environments_,
+                                         RoomThreads{workers_, encoders_}, metrics_, options());
     }
-    ~RoomTest() override { workers_.stop(); }
+    ~RoomTest() override {
+        workers_.stop();
+        encoders_.stop();
+    }
 
     static RoomsOptions options() {
         RoomsOptions options;
@@ -102,7 +106,8 @@ class RoomTest : public testing::Test {
     Metrics metrics_;
     SceneLibrary scenes_;
     EnvironmentLibrary environments_{EnvironmentBounds{}};
-    WorkerPool workers_{2};
+    WorkerPool workers_{2, 16};
+    WorkerPool encoders_{2, 1};
     std::shared_ptr<Rooms> rooms_;
 };
 
@@ -302,6 +307,43 @@ TEST_F(RoomTest, StoppedRoomsRefuseEditsAndGuests) {
     }
     EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("r", "tiny", outbox())),
               wire::CloseCode::shutting_down);
+}
+
+// Rooms of one scene that are edited at the same time are relit together: each shows what it
+// would show if it were alone.
+TEST_F(RoomTest, RoomsEditedTogetherShowWhatTheyWouldAlone) {
+    RoomsOptions many = options();
+    many.room.limits.rooms = 20;
+    const auto crowd = std::make_shared<Rooms>(
+        scenes_, environments_, RoomThreads{workers_, encoders_}, metrics_, many);
+    struct Seat {
+        Room::SharedOutbox viewer = outbox(ImageInterest::settled);
+        std::shared_ptr<Room> room;
+        json patch;
+    };
+    const auto enter_and_edit = [&](Seat& seat, const std::string& name, std::size_t i) {
+        seat.room = std::get<std::shared_ptr<Room>>(crowd->enter(name, "tiny", seat.viewer));
+        seat.patch = {{"environment", {{"gain", 0.5 + 0.25 * static_cast<double>(i)}}},
+                      {"background", {{"mode", "colour"}, {"colour", {0, 0, 0}}}}};
+        edit(*seat.room, *seat.viewer, seat.patch);
+    };
+    std::vector<Seat> together(9);
+    for (std::size_t i = 0; i < together.size(); ++i) {
+        enter_and_edit(together[i], "together" + std::to_string(i), i);
+    }
+    for (std::size_t i = 0; i < together.size(); ++i) {
+        const auto frame = settled_image(*together[i].room, *together[i].viewer, 1);
+        ASSERT_TRUE(frame);
+        Seat alone;
+        enter_and_edit(alone, "alone" + std::to_string(i), i);
+        const auto expected = settled_image(*alone.room, *alone.viewer, 1);
+        ASSERT_TRUE(expected);
+        const auto payload = [](const SharedImageFrame& image) {
+            return std::vector(image->bytes.begin() + wire::kImageHeaderBytes,
+                               image->bytes.end());
+        };
+        EXPECT_EQ(payload(frame), payload(expected)) << i;
+    }
 }
 
 }  // namespace

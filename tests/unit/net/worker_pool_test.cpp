@@ -6,7 +6,9 @@
 #include <functional>
 #include <future>
 #include <latch>
+#include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 
 namespace relume::net {
@@ -14,15 +16,23 @@ namespace {
 
 class Item : public WorkItem {
   public:
-    explicit Item(std::function<void()> work) : work_(std::move(work)) {}
-    void run() noexcept override { work_(); }
+    explicit Item(std::function<void()> work, const void* company = nullptr)
+        : work_(std::move(work)), company_(company) {}
+    [[nodiscard]] const void* company() const noexcept override { return company_; }
+    void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override {
+        work_();
+        for (const auto& other : others) {
+            static_cast<Item&>(*other).work_();
+        }
+    }
 
   private:
     std::function<void()> work_;
+    const void* company_;
 };
 
-std::shared_ptr<WorkItem> item(std::function<void()> work) {
-    return std::make_shared<Item>(std::move(work));
+std::shared_ptr<WorkItem> item(std::function<void()> work, const void* company = nullptr) {
+    return std::make_shared<Item>(std::move(work), company);
 }
 
 // Holds the only worker until released, so that what is queued meanwhile waits.
@@ -45,11 +55,13 @@ class Gate {
 
 class Order {
   public:
-    std::shared_ptr<WorkItem> add(char name) {
-        return item([this, name] {
-            const std::lock_guard lock(mutex_);
-            order_.push_back(name);
-        });
+    std::shared_ptr<WorkItem> add(char name, const void* company = nullptr) {
+        return item(
+            [this, name] {
+                const std::lock_guard lock(mutex_);
+                order_.push_back(name);
+            },
+            company);
     }
     std::string text() {
         const std::lock_guard lock(mutex_);
@@ -67,9 +79,17 @@ void finish(WorkerPool& pool) {
     done.get_future().wait();
 }
 
+// The same, behind even what is due in hours.
+void finish_last(WorkerPool& pool) {
+    std::promise<void> done;
+    pool.enqueue(item([&done] { done.set_value(); }), WorkPriority::edit,
+                 Clock::now() + std::chrono::hours(2));
+    done.get_future().wait();
+}
+
 TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1);
+    WorkerPool pool(1, 3);
     Gate gate(pool);
     pool.enqueue(order.add('a'), WorkPriority::refinement);
     pool.enqueue(order.add('b'), WorkPriority::edit);
@@ -82,7 +102,7 @@ TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
 
 TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1);
+    WorkerPool pool(1, 3);
     Gate gate(pool);
     const auto first = order.add('a');
     const auto second = order.add('b');
@@ -96,21 +116,43 @@ TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
     EXPECT_EQ(order.text(), "ba");
 }
 
+// An edit that is read when a refinement has waited long goes after it.
 TEST(WorkerPool, EditsDoNotStarveARefinement) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1);
+    WorkerPool pool(1, 3);
     Gate gate(pool);
-    for (int i = 0; i < 40; ++i) {
-        pool.enqueue(order.add('e'), WorkPriority::edit);
-    }
-    pool.enqueue(order.add('r'), WorkPriority::refinement);
+    const Clock::time_point now = Clock::now();
+    pool.enqueue(order.add('l'), WorkPriority::edit, now + 2 * WorkerPool::kRefinementPatience);
+    pool.enqueue(order.add('r'), WorkPriority::refinement, now);
+    pool.enqueue(order.add('e'), WorkPriority::edit, now + WorkerPool::kRefinementPatience / 2);
+    gate.open();
+    pool.enqueue(order.add('z'), WorkPriority::edit, now + std::chrono::hours(1));
+    finish_last(pool);
+    EXPECT_EQ(order.text(), "erlz");
+}
+
+// What waits behind others goes with its company, if of its priority, up to the largest
+// company.
+TEST(WorkerPool, ACompanyGoesTogether) {
+    Order order;  // outlives what the pool still runs
+    WorkerPool pool(1, 3);
+    Gate gate(pool);
+    const int one = 1;
+    const int other = 2;
+    pool.enqueue(order.add('a', &one), WorkPriority::edit);
+    pool.enqueue(order.add('x', &other), WorkPriority::edit);
+    pool.enqueue(order.add('y'), WorkPriority::edit);
+    pool.enqueue(order.add('b', &one), WorkPriority::edit);
+    pool.enqueue(order.add('r', &one), WorkPriority::refinement);
+    pool.enqueue(order.add('c', &one), WorkPriority::edit);
+    pool.enqueue(order.add('d', &one), WorkPriority::edit);
     gate.open();
     finish(pool);
-    EXPECT_LT(order.text().find('r'), 10U);
+    EXPECT_EQ(order.text(), "abcxydr");
 }
 
 TEST(WorkerPool, DelayedItemsRunAndAreReplaced) {
-    WorkerPool pool(1);
+    WorkerPool pool(1, 3);
     std::atomic<int> runs{0};
     std::promise<void> last;
     const auto counted = item([&runs] { ++runs; });
@@ -124,7 +166,7 @@ TEST(WorkerPool, DelayedItemsRunAndAreReplaced) {
 
 TEST(WorkerPool, StopForgetsWhatWaits) {
     std::atomic<int> runs{0};
-    WorkerPool pool(1);
+    WorkerPool pool(1, 3);
     pool.enqueue_after(item([&runs] { ++runs; }), WorkPriority::edit, std::chrono::hours(1));
     pool.stop();
     pool.enqueue(item([&runs] { ++runs; }), WorkPriority::edit);

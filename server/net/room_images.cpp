@@ -1,0 +1,62 @@
+#include "server/net/room_images.h"
+
+#include <utility>
+
+namespace relume::net {
+
+RoomImages::RoomImages(std::shared_ptr<const ServedScene> scene,
+                       Metrics& metrics,
+                       const ImageOptions& options)
+    : scene_(std::move(scene)), metrics_(metrics), options_(options) {}
+
+std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
+    if (!relighter_) {
+        relighter_ = std::make_unique<Relighter>(scene_, metrics_);
+    }
+    relighter_->encoding_took(slice.encode_ms);
+    if (!slice.state_changed) {
+        return {};
+    }
+    return relighter_->set_state(slice.state, slice.environments);
+}
+
+Relighter* RoomImages::next_to_relight() {
+    return relighter_->at_rest() ? nullptr : relighter_.get();
+}
+
+SliceResult RoomImages::end(const RoomSlice& slice) {
+    SliceResult result;
+    result.at_rest = relighter_->at_rest();
+    if (!slice.encoder_is_free) {
+        return result;
+    }
+    const ImageStamp stamp{.revision = slice.revision,
+                           .sequence = sequence_ + 1,
+                           .edit_read_at = slice.edit_read_at};
+    const Clock::time_point now = Clock::now();
+    if (result.at_rest && slice.settled_image_due && now >= slice.settle_at) {
+        result.picture = relighter_->picture(stamp, wire::ImageEncoding::half_planes, 0);
+    } else if (moving_image_is_due(slice, now)) {
+        result.picture =
+            relighter_->picture(stamp, wire::ImageEncoding::jpeg,
+                                slice.first_image_due ? options_.moving_jpeg_quality
+                                                      : options_.converging_jpeg_quality);
+    }
+    if (result.picture) {
+        ++sequence_;
+        last_image_at_ = now;
+        last_image_error_ = relighter_->stated_error();
+    }
+    return result;
+}
+
+bool RoomImages::moving_image_is_due(const RoomSlice& slice, Clock::time_point now) const {
+    if (!slice.viewer_wants_moving || !relighter_->image_changed()) {
+        return false;
+    }
+    return slice.first_image_due || relighter_->at_rest() ||
+           now - last_image_at_ >= options_.refinement_interval ||
+           relighter_->stated_error() <= last_image_error_ / 2;
+}
+
+}  // namespace relume::net

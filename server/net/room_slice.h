@@ -1,0 +1,37 @@
+// One slice of a room's work: what it needs to know, and what came of it.
+#pragma once
+
+#include "protocol/wire/messages.h"
+#include "protocol/wire/session_state.h"
+#include "server/net/clock.h"
+#include "server/net/picture.h"
+#include "server/net/relighter.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace relume::net {
+
+// Copied from the room under its lock.
+struct RoomSlice {
+    bool state_changed = false;
+    wire::SessionState state;  // set if it changed
+    NamedEnvironments environments;
+    std::uint64_t revision = 0;
+    Clock::time_point edit_read_at;
+    Clock::time_point settle_at;
+    bool viewer_wants_moving = false;
+    bool first_image_due = false;  // of an edit
+    bool settled_image_due = false;
+    bool encoder_is_free = true;
+    double encode_ms = 0;  // what a JPEG has been taking
+};
+
+struct SliceResult {
+    std::vector<wire::ErrorMessage> problems;
+    std::optional<Picture> picture;
+    bool at_rest = false;
+};
+
+}  // namespace relume::net
