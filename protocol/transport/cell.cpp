@@ -1,5 +1,6 @@
 #include "protocol/transport/cell.h"
 
+#include "protocol/transport/cell_cost.h"
 #include "protocol/transport/error.h"
 
 #include <fmt/format.h>
@@ -57,95 +58,28 @@ void append_nonzero(const QuantisedCell& values, std::vector<std::uint8_t>& byte
     }
 }
 
-void append_sparse8(const QuantisedCell& values,
-                    std::size_t nonzeros,
-                    std::vector<std::uint8_t>& bytes) {
-    bytes.push_back(static_cast<std::uint8_t>(nonzeros));
+void append_sparse8(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
+    const std::size_t count = bytes.size();
+    bytes.push_back(0);
     for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
         if (values[slot] != 0) {
             bytes.push_back(static_cast<std::uint8_t>(slot));
         }
     }
+    bytes[count] = static_cast<std::uint8_t>(bytes.size() - count - 1);
     append_nonzero<std::int8_t>(values, bytes);
 }
 
-CellTag append_cell8(const QuantisedCell& values,
-                     std::size_t nonzeros,
-                     std::vector<std::uint8_t>& bytes) {
-    const std::size_t sparse = 1 + 2 * nonzeros;
-    const std::size_t bitmap = kBitmapBytes + nonzeros;
-    if (sparse <= bitmap) {
-        append_sparse8(values, nonzeros, bytes);
-        return CellTag::sparse8;
-    }
-    if (bitmap < kBlockSize) {
-        append_bitmap(values, bytes);
-        append_nonzero<std::int8_t>(values, bytes);
-        return CellTag::bitmap8;
-    }
-    append_all<std::int8_t>(values, bytes);
-    return CellTag::dense8;
-}
-
-std::size_t cell16_bytes(std::size_t nonzeros) {
-    return std::min(kBitmapBytes + sizeof(std::int16_t) * nonzeros,
-                    sizeof(std::int16_t) * std::size_t{kBlockSize});
-}
-
-CellTag append_cell16(const QuantisedCell& values,
-                      std::size_t nonzeros,
-                      std::vector<std::uint8_t>& bytes) {
-    if (cell16_bytes(nonzeros) < 2 * std::size_t{kBlockSize}) {
-        append_bitmap(values, bytes);
-        append_nonzero<std::int16_t>(values, bytes);
-        return CellTag::bitmap16;
-    }
-    append_all<std::int16_t>(values, bytes);
-    return CellTag::dense16;
-}
-
 // q = low + 256·high with low in 8 bits.
-struct SplitCell {
+void append_split(CellTag tag, const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
     QuantisedCell low;
     QuantisedCell high;
-    std::size_t low_nonzeros = 0;
-    std::size_t high_nonzeros = 0;
-};
-
-SplitCell split(const QuantisedCell& values) {
-    SplitCell cell;
     for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        const std::int32_t low = static_cast<std::int8_t>(values[slot] & 0xFF);
-        cell.low[slot] = low;
-        cell.high[slot] = (values[slot] - low) / kHighPart;
-        cell.low_nonzeros += low != 0 ? 1U : 0U;
-        cell.high_nonzeros += cell.high[slot] != 0 ? 1U : 0U;
+        low[slot] = static_cast<std::int8_t>(values[slot] & 0xFF);
+        high[slot] = (values[slot] - low[slot]) / kHighPart;
     }
-    return cell;
-}
-
-// Values of 16 bits: split where that takes fewer bytes.
-CellTag append_wide_cell(const QuantisedCell& values,
-                         std::size_t nonzeros,
-                         std::vector<std::uint8_t>& bytes) {
-    const SplitCell parts = split(values);
-    const bool high_fits = std::all_of(parts.high.begin(), parts.high.end(), [](auto high) {
-        return high <= std::numeric_limits<std::int8_t>::max();
-    });
-    const std::size_t high_bytes = 1 + 2 * parts.high_nonzeros;
-    const std::size_t low_bytes =
-        std::min({1 + 2 * parts.low_nonzeros, kBitmapBytes + parts.low_nonzeros,
-                  std::size_t{kBlockSize}});
-    if (!high_fits || parts.low_nonzeros == 0 ||
-        parts.high_nonzeros > std::numeric_limits<std::uint8_t>::max() ||
-        high_bytes + low_bytes >= cell16_bytes(nonzeros)) {
-        return append_cell16(values, nonzeros, bytes);
-    }
-    append_sparse8(parts.high, parts.high_nonzeros, bytes);
-    const CellTag tag = append_cell8(parts.low, parts.low_nonzeros, bytes);
-    return static_cast<CellTag>(static_cast<std::uint8_t>(tag) +
-                                static_cast<std::uint8_t>(CellTag::split_dense8) -
-                                static_cast<std::uint8_t>(CellTag::dense8));
+    append_sparse8(high, bytes);
+    append_cell_as(low_tag(tag), low, bytes);
 }
 
 std::size_t sparse8_bytes(const std::uint8_t* cell) {
@@ -223,28 +157,43 @@ void check_finite(const std::uint8_t* cell) {
 }  // namespace
 
 CellTag append_cell(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
-    std::size_t nonzeros = 0;
-    std::int32_t low = 0;
-    std::int32_t high = 0;
-    for (const std::int32_t value : values) {
-        nonzeros += value != 0 ? 1 : 0;
-        low = std::min(low, value);
-        high = std::max(high, value);
+    const CellTag tag = CellShape::of(values).cheapest();
+    append_cell_as(tag, values, bytes);
+    return tag;
+}
+
+void append_cell_as(CellTag tag,
+                    const QuantisedCell& values,
+                    std::vector<std::uint8_t>& bytes) {
+    switch (tag) {
+        case CellTag::empty:
+            return;
+        case CellTag::dense8:
+            append_all<std::int8_t>(values, bytes);
+            return;
+        case CellTag::bitmap8:
+            append_bitmap(values, bytes);
+            append_nonzero<std::int8_t>(values, bytes);
+            return;
+        case CellTag::sparse8:
+            append_sparse8(values, bytes);
+            return;
+        case CellTag::dense16:
+            append_all<std::int16_t>(values, bytes);
+            return;
+        case CellTag::bitmap16:
+            append_bitmap(values, bytes);
+            append_nonzero<std::int16_t>(values, bytes);
+            return;
+        case CellTag::dense32f:
+            append_all<float>(values, bytes);
+            return;
+        case CellTag::split_dense8:
+        case CellTag::split_bitmap8:
+        case CellTag::split_sparse8:
+            append_split(tag, values, bytes);
+            return;
     }
-    const auto fits = [low, high]<typename T>(T /*type*/) {
-        return low >= std::numeric_limits<T>::min() && high <= std::numeric_limits<T>::max();
-    };
-    if (nonzeros == 0) {
-        return CellTag::empty;
-    }
-    if (fits(std::int8_t{})) {
-        return append_cell8(values, nonzeros, bytes);
-    }
-    if (fits(std::int16_t{})) {
-        return append_wide_cell(values, nonzeros, bytes);
-    }
-    append_all<float>(values, bytes);
-    return CellTag::dense32f;
 }
 
 std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t> bytes) {

@@ -15,9 +15,12 @@ namespace relume::transport {
 using QuantisedCell = std::array<std::int32_t, kBlockSize>;
 using DecodedCell = std::array<float, kBlockSize>;
 
-// Appends the cell in the encoding with the fewest bytes and returns its tag. Values beyond 16
-// bits are stored as floats.
+// Appends the cell in the encoding of the least cost (cell_cost.h) and returns its tag. Values
+// beyond 16 bits are stored as floats.
 CellTag append_cell(const QuantisedCell& values, std::vector<std::uint8_t>& bytes);
+
+// Appends the cell in this encoding, which fits it (CellShape::fits).
+void append_cell_as(CellTag tag, const QuantisedCell& values, std::vector<std::uint8_t>& bytes);
 
 // Bytes of the cell that begins at `bytes`. Throws TransportError (without a file name) when
 // the tag is unknown, the cell does not fit into `bytes`, or its content is not allowed.

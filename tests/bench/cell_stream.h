@@ -17,9 +17,7 @@ struct CellKind {
     std::int32_t range = 127;    // values are in ±range, not zero
 };
 
-// Every encoding, sparse and bitmap ones at several densities. The writer chooses the encoding
-// from number and range of the values, so the name says what to expect and CellStream checks
-// it.
+// Every encoding, sparse and bitmap ones at several densities; a name begins with its encoding.
 [[nodiscard]] const std::vector<CellKind>& cell_kinds();
 
 class CellStream {
@@ -27,7 +25,6 @@ class CellStream {
     static constexpr std::size_t kFewestColumns = 32;
 
     // As many columns of `block_count` cells as fill `bytes`, at least kFewestColumns of them.
-    // Throws std::logic_error when the writer chose another encoding than the kind's name says.
     CellStream(const CellKind& kind, std::uint32_t block_count, std::size_t bytes);
 
     [[nodiscard]] const std::vector<engine::WeightedSegment>& segments() const {

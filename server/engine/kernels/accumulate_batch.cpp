@@ -129,6 +129,17 @@ HWY_INLINE void for_each_value(const std::uint8_t* bitmap, const Add& add) {
     }
 }
 
+// Bit i: byte i of a dense cell is not zero.
+std::array<std::uint8_t, transport::kBitmapBytes> occupancy(const std::uint8_t* cell) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint8_t, 64> d8;
+    std::array<std::uint8_t, transport::kBitmapBytes> bits;
+    for (std::size_t slot = 0; slot < kBlockSize; slot += hn::Lanes(d8)) {
+        hn::StoreMaskBits(d8, hn::LoadU(d8, cell + slot) != hn::Zero(d8), &bits[slot / 8]);
+    }
+    return bits;
+}
+
 std::uint32_t rows_of_bitmap(const std::uint8_t* bitmap) {
     std::uint32_t rows = 0;
     for (std::size_t row = 0; row < kBlockSize / LaneSums::kRowSlots; ++row) {
@@ -188,8 +199,7 @@ class Workspace {
                     add_bitmap(block, tag, cell, lanes);
                     break;
                 case CellTag::dense8:
-                    add_dense(lanes,
-                              [cell](std::size_t slot) { return kFloatFromByte[cell[slot]]; });
+                    add_dense8(cell, lanes);
                     break;
                 case CellTag::dense16:
                 case CellTag::dense32f:
@@ -250,6 +260,19 @@ class Workspace {
                         active.add(value, sums.slot(slot, stride_));
                     });
                 }
+            });
+    }
+
+    // Many are zero, and to pass a value over is cheaper than to add it to so many lanes.
+    void add_dense8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
+        const auto occupied = occupancy(cell);
+        dense_.touch_rows(rows_of_bitmap(occupied.data()));
+        with_active_lanes(
+            lanes.weights, lanes.active, lanes.active_count, 1,
+            [&](const auto& active) HWY_ATTR {
+                for_each_value(occupied.data(), [&](std::size_t slot, std::size_t) HWY_ATTR {
+                    active.add(kFloatFromByte[cell[slot]], dense_.slot(slot, stride_));
+                });
             });
     }
 

@@ -89,14 +89,17 @@ class PackedSums {
     }
 
   private:
-    // Values are taken in runs; one more slot than a block has takes what fills the last run.
+    // Values are taken in runs. What fills the last one goes to slots that a block does not
+    // have, each to its own: additions to one slot wait for each other.
     static constexpr std::size_t kRun =
         hwy::HWY_NAMESPACE::MaxLanes(hwy::HWY_NAMESPACE::CappedTag<float, 8>());
-    static constexpr std::size_t kFloats = 4 * (transport::kBlockSize + 1);
-    // From place kRun − n on: 0 for the n values that a run has, that slot for the others.
+    static constexpr std::size_t kFloats = 4 * (transport::kBlockSize + kRun);
+    // From place kRun − n on: 0 for the n values that a run has, those slots for the others.
     static constexpr std::array<std::int32_t, 2 * kRun> kUnfilled = [] {
         std::array<std::int32_t, 2 * kRun> slots{};
-        std::fill(slots.begin() + kRun, slots.end(), std::int32_t{transport::kBlockSize});
+        for (std::size_t i = 0; i < kRun; ++i) {
+            slots[kRun + i] = static_cast<std::int32_t>(transport::kBlockSize + i);
+        }
         return slots;
     }();
 

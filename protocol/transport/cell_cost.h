@@ -1,0 +1,41 @@
+// What a cell costs in each encoding, in bytes and in time of the kernel: the model by which
+// the writer chooses.
+#pragma once
+
+#include "protocol/transport/cell.h"
+#include "protocol/transport/format.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace relume::transport {
+
+// What the cost of a cell depends on.
+struct CellShape {
+    std::size_t nonzeros = 0;
+    // Of the parts q = low + 256·high, low in 8 bits.
+    std::size_t low_nonzeros = 0;
+    std::size_t high_nonzeros = 0;
+    std::int32_t least = 0;
+    std::int32_t largest = 0;
+
+    [[nodiscard]] static CellShape of(const QuantisedCell& values);
+
+    // Whether an encoding can hold such a cell.
+    [[nodiscard]] bool fits(CellTag tag) const;
+    // `tag` fits.
+    [[nodiscard]] std::size_t bytes(CellTag tag) const;
+    // Of one thread that adds the cell, found in the second-level cache, to sums in three
+    // colours; `tag` fits. Measured (tests/bench/README.md).
+    [[nodiscard]] double nanoseconds(CellTag tag) const;
+    // Nanoseconds, bytes turned into time.
+    [[nodiscard]] double cost(CellTag tag) const;
+    // The encoding of the least cost.
+    [[nodiscard]] CellTag cheapest() const;
+};
+
+// The rate of exchange: two threads that read 25 GB/s between them wait 0.08 ns for a byte, and
+// as much again is paid for its place in memory.
+inline constexpr double kNanosecondsPerByte = 0.16;
+
+}  // namespace relume::transport
