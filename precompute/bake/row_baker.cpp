@@ -1,7 +1,7 @@
 #include "precompute/bake/row_baker.h"
 
 #include "protocol/basis/haar.h"
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 
 #include <span>
 

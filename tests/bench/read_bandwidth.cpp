@@ -1,6 +1,6 @@
 #include "tests/bench/read_bandwidth.h"
 
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 #include "tests/bench/timing.h"
 
 #include <tbb/blocked_range.h>
