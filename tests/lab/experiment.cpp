@@ -72,7 +72,7 @@ std::vector<Record> run_experiment(const std::shared_ptr<const engine::Scene>& s
     std::vector<Record> records;
     for (std::uint32_t i = 0; i < sequence.images; ++i) {
         light::evaluate(sequence.rig(i), scene->face_resolution(), cubemap);
-        light::lighting_coefficients(cubemap, lighting);
+        light::lighting_coefficients(cubemap, scene->projection(), lighting);
         reference.write_image(lighting, reference_image);
         for (Contestant& contestant : contestants) {
             records.push_back(measure(contestant, lighting, reference_image, image));
