@@ -15,5 +15,7 @@ struct Command {
 
 // Each adds its subcommand with its options to the program.
 [[nodiscard]] Command add_run_command(CLI::App& program);
+[[nodiscard]] Command add_pareto_command(CLI::App& program);
+[[nodiscard]] Command add_terms_command(CLI::App& program);
 
 }  // namespace relume::lab

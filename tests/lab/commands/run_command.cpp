@@ -1,31 +1,26 @@
 // relume-lab run: methods over one lighting sequence.
-#include "protocol/transport/atomic_file.h"
-#include "tests/lab/charts/error_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"
 #include "tests/lab/commands/progress.h"
 #include "tests/lab/commands/scene_options.h"
 #include "tests/lab/measures/experiment.h"
-#include "tests/lab/measures/record_table.h"
 #include "tests/lab/measures/summary.h"
+#include "tests/lab/report/run_report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <memory>
 
 namespace relume::lab {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RunOptions {
     SceneOptions scene;
     std::vector<std::string> methods{"nwa-30", "nwa-60", "nwa-100",
                                      "bi-30",  "pbi-30", "pbi-30-transport"};
     std::string output = "lab";
-    bool perceptual = true;
+    std::uint32_t visible_every = 10;
+    std::vector<std::uint32_t> pictures;
 };
 
 Experiment experiment_from(const RunOptions& options) {
@@ -37,23 +32,9 @@ Experiment experiment_from(const RunOptions& options) {
     experiment.scene = options.scene.scene();
     experiment.environments =
         options.scene.environments(experiment.scene.haar->face_resolution());
-    experiment.perceptual = options.perceptual;
+    experiment.visible_every = options.visible_every;
+    experiment.pictures = options.pictures;
     return experiment;
-}
-
-nlohmann::json json_from_run(const Experiment& experiment, const Findings& findings) {
-    return {{"sequence", experiment.sequence.name},
-            {"seed", experiment.sequence.seed},
-            {"images", experiment.sequence.images},
-            {"images_done", findings.images_done},
-            {"complete", findings.complete},
-            {"rests_from", experiment.sequence.rests_from()},
-            {"transport", experiment.scene.haar->transport().directory().string()},
-            {"records", json_from_records(findings.records)}};
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    transport::write_file_atomically(file, {transport::bytes_of(text)});
 }
 
 void print_summary(const std::vector<Summary>& summaries) {
@@ -81,15 +62,11 @@ int run(const RunOptions& options) {
         catch_interruption();
         findings = run_experiment(experiment);
     }
-    const fs::path output(options.output);
-    fs::create_directories(output);
-    write_text(output / "records.csv", csv_from_records(findings.records));
-    write_text(output / "run.json", json_from_run(experiment, findings).dump());
-    draw_error_chart(output / "error", options.scene.title(), findings.records);
+    write_run_report(options.output, options.scene.title(), experiment, findings);
     print_summary(summaries(findings.records, experiment.sequence.rests_from()));
     if (!findings.complete) {
         fmt::print(stderr, "relume-lab: interrupted after {} of {} images; {} is partial\n",
-                   findings.images_done, experiment.sequence.images, output.string());
+                   findings.images_done, experiment.sequence.images, options.output);
         return kInterrupted;
     }
     return 0;
@@ -104,8 +81,15 @@ Command add_run_command(CLI::App& program) {
     command->add_option("--methods", options->methods, "separated by commas, as below")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_flag("!--no-visible", options->perceptual,
-                      "do not measure what a viewer sees, which takes long");
+    command
+        ->add_option("--visible-every", options->visible_every,
+                     "measure what a viewer sees in every so many images, which takes long; 0: "
+                     "never")
+        ->capture_default_str();
+    command
+        ->add_option("--pictures", options->pictures,
+                     "images to show in the report, separated by commas")
+        ->delimiter(',');
     command->add_option("-o,--output", options->output, "folder for what is found")
         ->capture_default_str();
     command->footer(

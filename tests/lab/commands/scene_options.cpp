@@ -15,7 +15,8 @@ void SceneOptions::add_to(CLI::App& command) {
                        "the same view baked in spherical harmonics, for methods that need it");
     command
         .add_option("--environment", environment,
-                    "HDR map, the name of a procedural one (sky-afternoon), or bare-sun")
+                    "HDR map: a file, one of blender-data's (studio), a procedural one "
+                    "(sky-afternoon), or bare-sun")
         ->required();
     command.add_option("--blend", blend, "a second one, for sequences that blend into it")
         ->capture_default_str();

@@ -50,6 +50,7 @@ class Entrant {
     Entrant(const Method& method, const LabScene& scene, std::size_t values)
         : label_(method.label),
           contestant_(method.enter(scene)),
+          lighting_error_(scene.haar->face_resolution()),
           image_(values),
           previous_error_(values) {
         const LightingView lighting = contestant_->lighting();
@@ -70,7 +71,7 @@ class Entrant {
             .method = label_,
             .image = 0,
             .error = image_error(image_, truth.image, truth.width),
-            .lighting_l1 = lighting_error_l1(shown_, truth.light.radiance),
+            .lighting_l1 = lighting_error_.relative_l1(shown_, truth.light.radiance),
             .flicker = error_change(image_, truth.image, previous_error_),
             .visible = std::nullopt,
             .stated_error = step.stated_error,
@@ -120,6 +121,7 @@ class Entrant {
 
     std::string label_;
     std::unique_ptr<Contestant> contestant_;
+    LightingError lighting_error_;
     std::vector<float> image_;
     std::vector<float> previous_error_;
     light::LightCubemap shown_;
@@ -156,8 +158,10 @@ Findings run_experiment(const Experiment& experiment) {
         if (keep) {
             findings.pictures.push_back({.method = "", .image = i, .rgb = reference_image});
         }
+        const bool perceptual =
+            experiment.visible_every != 0 && (keep || i % experiment.visible_every == 0);
         for (Entrant& entrant : entrants) {
-            findings.records.push_back(entrant.measure(truth, experiment.perceptual));
+            findings.records.push_back(entrant.measure(truth, perceptual));
             findings.records.back().image = i;
             if (keep) {
                 findings.pictures.push_back(

@@ -7,22 +7,29 @@
 
 namespace relume::lab {
 
-double lighting_error_l1(const light::LightCubemap& shown, const light::LightCubemap& target) {
-    if (shown.face_resolution != target.face_resolution) {
-        throw std::invalid_argument("lighting error of cubemaps of two resolutions");
+LightingError::LightingError(std::uint32_t face_resolution) {
+    for (std::size_t i = 0; i < basis::texel_count(face_resolution); ++i) {
+        const basis::Texel texel = basis::texel_from_index(face_resolution, i);
+        solid_angles_sr_.push_back(
+            basis::solid_angle_sr(face_resolution, texel.row, texel.column));
     }
-    const std::uint32_t n = target.face_resolution;
+}
+
+double LightingError::relative_l1(const light::LightCubemap& shown,
+                                  const light::LightCubemap& target) const {
+    if (shown.plane_size() != solid_angles_sr_.size() ||
+        target.plane_size() != solid_angles_sr_.size()) {
+        throw std::invalid_argument("lighting error of cubemaps of different resolutions");
+    }
     const auto shown_planes = shown.planes();
     const auto target_planes = target.planes();
     double difference = 0;
     double norm = 0;
-    for (std::size_t i = 0; i < target.plane_size(); ++i) {
-        const basis::Texel texel = basis::texel_from_index(n, i);
-        const double solid_angle = basis::solid_angle_sr(n, texel.row, texel.column);
-        for (std::size_t c = 0; c < target_planes.size(); ++c) {
+    for (std::size_t c = 0; c < target_planes.size(); ++c) {
+        for (std::size_t i = 0; i < solid_angles_sr_.size(); ++i) {
             const double wanted = target_planes[c][i];
-            difference += solid_angle * std::abs(wanted - double{shown_planes[c][i]});
-            norm += solid_angle * std::abs(wanted);
+            difference += solid_angles_sr_[i] * std::abs(wanted - double{shown_planes[c][i]});
+            norm += solid_angles_sr_[i] * std::abs(wanted);
         }
     }
     if (norm == 0) {

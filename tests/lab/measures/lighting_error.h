@@ -3,11 +3,24 @@
 
 #include "server/light/light_cubemap.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace relume::lab {
 
-// Σ ω |L − L̃| / Σ ω |L| over texels and colours, ω the texel's solid angle: the L1 norm over
-// the sphere, the same for every basis. 0 where both are black, 1 where only L is.
-[[nodiscard]] double lighting_error_l1(const light::LightCubemap& shown,
-                                       const light::LightCubemap& target);
+// The L1 norm over the sphere, the same for every basis; of cubemaps of one resolution. Any
+// number of threads may use it.
+class LightingError {
+  public:
+    explicit LightingError(std::uint32_t face_resolution);
+
+    // Σ ω |L − L̃| / Σ ω |L| over texels and colours, ω the texel's solid angle. 0 where both
+    // are black, 1 where only L is. Throws std::invalid_argument on another resolution.
+    [[nodiscard]] double relative_l1(const light::LightCubemap& shown,
+                                     const light::LightCubemap& target) const;
+
+  private:
+    std::vector<double> solid_angles_sr_;  // [6n²]
+};
 
 }  // namespace relume::lab

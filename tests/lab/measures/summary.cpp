@@ -48,10 +48,12 @@ Summary summary_of(const std::vector<Record>& records, std::uint32_t rests_from)
         summary.h1 = mean(moving, [](const Record& r) { return r.error.h1; });
         summary.lighting_l1 = mean(moving, [](const Record& r) { return r.lighting_l1; });
         summary.flicker = mean(moving, [](const Record& r) { return r.flicker; });
-        summary.visible =
-            mean(moving, [](const Record& r) { return r.visible.value_or(Summary::kNone); });
         summary.bytes =
             mean(moving, [](const Record& r) { return static_cast<double>(r.bytes); });
+        std::vector<Record> seen;
+        std::copy_if(moving.begin(), moving.end(), std::back_inserter(seen),
+                     [](const Record& record) { return record.visible.has_value(); });
+        summary.visible = mean(seen, [](const Record& r) { return *r.visible; });
         std::vector<double> times;
         for (const Record& record : moving) {
             times.push_back(record.microseconds);

@@ -6,11 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
 namespace relume::lab {
 namespace {
+
+// Of Debian's blender-data, CC0.
+const std::filesystem::path kPackagedMaps = "/usr/share/blender/datafiles/studiolights/world";
 
 light::EnvironmentMap bare_sun() {
     constexpr std::uint32_t kSide = 512;
@@ -37,7 +41,11 @@ light::EnvironmentMap load_map(const std::string& name_or_file) {
     if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
         return light::procedural_environment(name_or_file);
     }
-    return light::import_environment(name_or_file).map;
+    const std::filesystem::path packaged = kPackagedMaps / (name_or_file + ".exr");
+    return light::import_environment(std::filesystem::exists(packaged)
+                                         ? packaged
+                                         : std::filesystem::path(name_or_file))
+        .map;
 }
 
 }  // namespace
