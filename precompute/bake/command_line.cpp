@@ -32,7 +32,7 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--basis", p.basis,
                    "What the columns of the transport stand for: haar wavelets or sh, "
                    "spherical harmonics [haar]")
-        ->transform(CLI::Transformer(kinds).description(""));
+        ->transform(CLI::CheckedTransformer(kinds).description(""));
     app.add_option("--order", p.order, "Of spherical harmonics: order² columns, 1 to 20")
         ->capture_default_str();
     app.add_option("--bounces", p.bounces,
