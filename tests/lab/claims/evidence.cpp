@@ -58,6 +58,7 @@ LightRun Evidence::run(const LabScene& scene,
     experiment.go_on = [&](std::uint32_t done) {
         return options_.go_on(what, done, experiment.sequence.images);
     };
+    (void)options_.go_on(what, 0, experiment.sequence.images);
     LightRun run{.light = light, .findings = run_experiment(experiment), .summaries = {}};
     if (!run.findings.complete) {
         throw EvidenceInterrupted();

@@ -65,7 +65,7 @@ int run(const SeedsOptions& options) {
             {.demo = demo_scene(options),
              .cache = options.cache,
              .go_on = [&](const std::string& what, std::uint32_t done, std::uint32_t of) {
-                 if (done == 1) {
+                 if (done == 0) {
                      progress = std::make_unique<Progress>("image", of);
                  }
                  progress->update(done, what);
