@@ -78,7 +78,7 @@ void draw_band_chart(const RunChartInput& input) {
 }
 
 void draw_energy_map(const RunChartInput& input) {
-    constexpr std::uint32_t kPanelHeight = 150;
+    constexpr std::uint32_t kPanelHeight = 160;
     const std::vector<std::string> methods = methods_of(input.records);
     Chart chart{.height = static_cast<std::uint32_t>(methods.size() + 1) * kPanelHeight + 40};
     chart.data = map_block("map0", records_of(input.records, methods.front()),
@@ -96,7 +96,7 @@ void draw_energy_map(const RunChartInput& input) {
         "set palette defined (0 '#fff7ec', 0.5 '#fc8d59', 1 '#7f0000')\n"
         "set border 3\nset tics nomirror out\nset ylabel 'band'\nset ytics 1\n"
         "set autoscale xfix\nset yrange [-0.5:{}.5]\nset cbrange [-6:*]\n",
-        titles.size(), 50.0 / chart.height, 1 - 60.0 / chart.height, 50.0 / chart.height,
+        titles.size(), 50.0 / chart.height, 1 - 62.0 / chart.height, 64.0 / chart.height,
         chart_text(input.title), band_count(input.records) - 1);
     for (std::size_t i = 0; i < titles.size(); ++i) {
         chart.commands += i + 1 == titles.size() ? "set xlabel 'image' offset 0,0.6\n" : "";

@@ -4,16 +4,22 @@
 #include "tests/lab/measures/pareto.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace relume::lab {
 namespace {
 
+constexpr double kLeastError = 1e-6;
+
 CostAndError cost_and_error(const Summary& summary, ParetoCost cost) {
+    // Errors below kLeastError are rounding: they are drawn, and compared, as equal.
     return {.cost = cost == ParetoCost::milliseconds ? summary.microseconds / 1e3
                                                      : summary.bytes / 1e3,
-            .error = summary.l2};
+            .error = std::max(summary.l2, kLeastError)};
 }
 
 std::vector<std::string> series_in(const std::vector<Summary>& summaries) {
@@ -70,6 +76,27 @@ const char* axis_of(ParetoCost cost) {
                                             : "kB of transport read an image, mean";
 }
 
+// The range of the points with a little room, and ticks at 1, 2 and 5 of each decade.
+std::string cost_axis(const ParetoPanel& panel, ParetoCost cost) {
+    constexpr double kRoom = 1.15;
+    double least = std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (const Summary& summary : panel.summaries) {
+        const double value = cost_and_error(summary, cost).cost;
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+    }
+    std::vector<std::string> ticks;
+    for (double decade = std::pow(10, std::floor(std::log10(least))); decade < largest * kRoom;
+         decade *= 10) {
+        for (const double tick : {decade, 2 * decade, 5 * decade}) {
+            ticks.push_back(fmt::format("{:g}", tick));
+        }
+    }
+    return fmt::format("set xrange [{:.4g}:{:.4g}]\nset xtics ({})\n", least / kRoom,
+                       largest * kRoom, fmt::join(ticks, ","));
+}
+
 constexpr const char* kLogarithmic =
     "set logscale xy\nset format y '10^{%L}'\nset format x '%g'\n";
 
@@ -105,9 +132,10 @@ void draw_pareto_chart(const std::filesystem::path& stem, const ParetoPanel& pan
             "set xlabel '{}'\nset ylabel 'mean relative L2 error of the image'\n"
             "set key bottom left\n",
             axis_of(ParetoCost::milliseconds)) +
-        plot_command("ms", series, 0.8, true) +
+        cost_axis(panel, ParetoCost::milliseconds) + plot_command("ms", series, 0.8, true) +
         fmt::format("set xlabel '{}'\n", axis_of(ParetoCost::bytes)) +
-        plot_command("bytes", series, 0.8, false) + "unset multiplot\n";
+        cost_axis(panel, ParetoCost::bytes) + plot_command("bytes", series, 0.8, false) +
+        "unset multiplot\n";
     draw_chart(stem, chart);
 }
 
@@ -116,7 +144,7 @@ void draw_pareto_multiples(const std::filesystem::path& stem,
                            std::size_t columns,
                            ParetoCost cost) {
     constexpr std::uint32_t kPanel = 250;
-    constexpr std::uint32_t kKey = 60;
+    constexpr std::uint32_t kKey = 96;
     const std::size_t rows = (panels.size() + columns - 1) / columns;
     const std::vector<std::string> series = series_in(panels.front().summaries);
     Chart chart{.width = static_cast<std::uint32_t>(columns) * kPanel,
@@ -139,16 +167,16 @@ void draw_pareto_multiples(const std::filesystem::path& stem,
             "set title '{}' offset 0,-0.7 font ',11'\n",
             left + 0.17 * width, left + 0.97 * width, bottom + 0.16 * height,
             bottom + 0.90 * height, chart_text(panels[i].title));
-        chart.commands += plot_command(block, series, 0.45, false);
+        chart.commands += cost_axis(panels[i], cost) + plot_command(block, series, 0.45, false);
     }
     // The key in a panel of its own, above all others.
     chart.commands += fmt::format(
         "unset title\nunset border\nunset tics\nunset logscale\nset lmargin at screen 0\n"
-        "set rmargin at screen 1\nset bmargin at screen {:.4f}\nset tmargin at screen 1\n"
+        "set rmargin at screen 1\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n"
         "set xrange [0:1]\nset yrange [0:1]\nset key center center horizontal maxrows 2\n"
         "set label 'mean relative L2 error against {}' at screen 0.5,{:.4f} center font "
         "',11'\n",
-        1 - key, axis_of(cost), 1 - 0.85 * key);
+        1 - 0.9 * key, 1 - 0.25 * key, axis_of(cost), 1 - 0.14 * key);
     std::string legend =
         "plot 2 notitle, keyentry with lines lw 3 lc rgb '#c8c8c8' title 'Pareto front'";
     for (std::size_t i = 0; i < series.size(); ++i) {

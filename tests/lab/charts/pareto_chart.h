@@ -21,7 +21,8 @@ enum class ParetoCost : std::uint8_t { milliseconds, bytes };
 [[nodiscard]] std::string series_of(const std::string& method);
 
 // STEM.svg and .png: mean relative L2 error of the moving images against the median of
-// milliseconds, and against the mean of bytes, side by side. Throws as draw_chart does.
+// milliseconds, and against the mean of bytes, side by side. Errors below 10⁻⁶ are rounding and
+// drawn there. Throws as draw_chart does.
 void draw_pareto_chart(const std::filesystem::path& stem, const ParetoPanel& panel);
 
 // STEM.svg and .png: the same against one cost for many panels, so many a row.

@@ -3,11 +3,11 @@
 #include "tests/lab/charts/pareto_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"
-#include "tests/lab/commands/lab_scenes.h"
 #include "tests/lab/commands/progress.h"
 #include "tests/lab/measures/experiment.h"
 #include "tests/lab/measures/summary.h"
 #include "tests/lab/report/html_page.h"
+#include "tests/lab/scenes/lab_scenes.h"
 #include "tests/lab/sequences/environment_source.h"
 
 #include <fmt/format.h>

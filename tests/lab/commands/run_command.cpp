@@ -19,7 +19,6 @@ struct RunOptions {
     std::vector<std::string> methods{"nwa-30", "nwa-60", "nwa-100",
                                      "bi-30",  "pbi-30", "pbi-30-transport"};
     std::string output = "lab";
-    std::uint32_t visible_every = 10;
     std::vector<std::uint32_t> pictures;
 };
 
@@ -32,20 +31,19 @@ Experiment experiment_from(const RunOptions& options) {
     experiment.scene = options.scene.scene();
     experiment.environments =
         options.scene.environments(experiment.scene.haar->face_resolution());
-    experiment.visible_every = options.visible_every;
     experiment.pictures = options.pictures;
     return experiment;
 }
 
 void print_summary(const std::vector<Summary>& summaries) {
     fmt::print("{:<26} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "method",
-               "L2 moving", "H1 moving", "flicker", "visible", "rest +5", "rest +25", "last",
+               "L2 moving", "H1 moving", "flicker", "dE*ab", "rest +5", "rest +25", "last",
                "kB/image", "us/image");
     for (const Summary& s : summaries) {
         fmt::print(
             "{:<26} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.2e} {:>9.2e} {:>9.2e} "
             "{:>9.0f} {:>8.0f}\n",
-            s.method, s.l2, s.h1, s.flicker, s.visible, s.soon_l2, s.later_l2, s.last_l2,
+            s.method, s.l2, s.h1, s.flicker, s.delta_e, s.soon_l2, s.later_l2, s.last_l2,
             s.bytes / 1000, s.microseconds);
     }
 }
@@ -80,11 +78,6 @@ Command add_run_command(CLI::App& program) {
     options->scene.add_to(*command);
     command->add_option("--methods", options->methods, "separated by commas, as below")
         ->delimiter(',')
-        ->capture_default_str();
-    command
-        ->add_option("--visible-every", options->visible_every,
-                     "measure what a viewer sees in every so many images, which takes long; 0: "
-                     "never")
         ->capture_default_str();
     command
         ->add_option("--pictures", options->pictures,

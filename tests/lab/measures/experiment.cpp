@@ -60,7 +60,7 @@ class Entrant {
         covered_.resize(lighting.bands.size());
     }
 
-    Record measure(const Truth& truth, bool perceptual) {
+    Record measure(const Truth& truth) {
         contestant_->set_light(truth.light);
         const auto start = std::chrono::steady_clock::now();
         const Step step = contestant_->step();
@@ -73,7 +73,7 @@ class Entrant {
             .error = image_error(image_, truth.image, truth.width),
             .lighting_l1 = lighting_error_.relative_l1(shown_, truth.light.radiance),
             .flicker = error_change(image_, truth.image, previous_error_),
-            .visible = std::nullopt,
+            .delta_e = mean_delta_e(image_, truth.image),
             .stated_error = step.stated_error,
             .applied = step.applied,
             .bands_reset = step.bands_reset,
@@ -81,9 +81,6 @@ class Entrant {
             .bytes = step.bytes,
             .microseconds = std::chrono::duration<double, std::micro>(end - start).count(),
             .bands = {}};
-        if (perceptual) {
-            record.visible = visible_part(image_, truth.image, truth.width);
-        }
         record_bands(step.bands_reset, record);
         return record;
     }
@@ -158,10 +155,8 @@ Findings run_experiment(const Experiment& experiment) {
         if (keep) {
             findings.pictures.push_back({.method = "", .image = i, .rgb = reference_image});
         }
-        const bool perceptual =
-            experiment.visible_every != 0 && (keep || i % experiment.visible_every == 0);
         for (Entrant& entrant : entrants) {
-            findings.records.push_back(entrant.measure(truth, perceptual));
+            findings.records.push_back(entrant.measure(truth));
             findings.records.back().image = i;
             if (keep) {
                 findings.pictures.push_back(

@@ -17,9 +17,6 @@ struct Experiment {
     LightingSequence sequence;
     Environments environments;
     std::vector<Method> methods;
-    // Measure `visible` too, of every so many images and of the pictures; 0: of none. It takes
-    // some 200 ms an image of 192².
-    std::uint32_t visible_every = 0;
     std::vector<std::uint32_t> pictures;  // images to keep, of the methods and the reference
     // Called after each image with how many are done; false ends the experiment there.
     std::function<bool(std::uint32_t)> go_on = [](std::uint32_t) { return true; };

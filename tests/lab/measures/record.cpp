@@ -1,14 +1,6 @@
 #include "tests/lab/measures/record.h"
 
-#include <limits>
-
 namespace relume::lab {
-namespace {
-
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 const std::vector<RecordColumn>& record_columns() {
     static const std::vector<RecordColumn> columns{
         {"l2", "", "relative L2 error of the image", true,
@@ -21,8 +13,8 @@ const std::vector<RecordColumn>& record_columns() {
          [](const Record& r) { return r.lighting_l1; }},
         {"flicker", "", "change of the error since the image before, relative L2", true,
          [](const Record& r) { return r.flicker; }},
-        {"visible", "", "part of the pixels a viewer tells apart (Yee's metric)", true,
-         [](const Record& r) { return r.visible.value_or(kNotMeasured); }},
+        {"delta_e", "dE*ab", "mean difference in CIELAB as shown; 2.3 is just noticeable", true,
+         [](const Record& r) { return r.delta_e; }},
         {"stated", "", "relative L2 error as the method states it", true,
          [](const Record& r) { return r.stated_error; }},
         {"coefficients", "", "columns added", true,

@@ -4,7 +4,6 @@
 #include "tests/lab/measures/image_error.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +21,9 @@ struct Record {
     std::string method;
     std::uint32_t image = 0;
     ImageError error;
-    double lighting_l1 = 0;         // lighting_error.h
-    double flicker = 0;             // image_error.h, error_change
-    std::optional<double> visible;  // perceptual_difference.h; not measured
+    double lighting_l1 = 0;  // lighting_error.h
+    double flicker = 0;      // image_error.h, error_change
+    double delta_e = 0;      // perceptual_difference.h
     double stated_error = 0;
     std::uint32_t applied = 0;
     std::uint32_t bands_reset = 0;  // bit b
@@ -40,7 +39,7 @@ struct RecordColumn {
     std::string_view unit;     // "" for ratios
     std::string_view meaning;  // a line
     bool reproducible;         // to the last digit from the seed
-    // NaN where it was not measured.
+    // NaN where there is none: a method that states nothing.
     double (*value)(const Record&);
 };
 [[nodiscard]] const std::vector<RecordColumn>& record_columns();

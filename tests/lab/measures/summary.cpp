@@ -50,10 +50,7 @@ Summary summary_of(const std::vector<Record>& records, std::uint32_t rests_from)
         summary.flicker = mean(moving, [](const Record& r) { return r.flicker; });
         summary.bytes =
             mean(moving, [](const Record& r) { return static_cast<double>(r.bytes); });
-        std::vector<Record> seen;
-        std::copy_if(moving.begin(), moving.end(), std::back_inserter(seen),
-                     [](const Record& record) { return record.visible.has_value(); });
-        summary.visible = mean(seen, [](const Record& r) { return *r.visible; });
+        summary.delta_e = mean(moving, [](const Record& r) { return r.delta_e; });
         std::vector<double> times;
         for (const Record& record : moving) {
             times.push_back(record.microseconds);

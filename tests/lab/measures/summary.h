@@ -24,7 +24,7 @@ struct Summary {
     double h1 = kNone;
     double lighting_l1 = kNone;
     double flicker = kNone;
-    double visible = kNone;
+    double delta_e = kNone;
     double bytes = kNone;
     double microseconds = kNone;
     double soon_l2 = kNone;             // kSoon images after the light rests

@@ -47,7 +47,7 @@ void add_summary(const Experiment& experiment, const Findings& findings, HtmlPag
     for (const Summary& s : summaries(findings.records, experiment.sequence.rests_from())) {
         rows.push_back(
             {s.method, number(s.l2), number(s.h1), number(s.lighting_l1), number(s.flicker),
-             number(s.visible), number(s.soon_l2), number(s.later_l2), number(s.last_l2),
+             number(s.delta_e), number(s.soon_l2), number(s.later_l2), number(s.last_l2),
              fmt::format("{:.2f} to {:.2f}", s.least_stated_ratio, s.largest_stated_ratio),
              number(s.bytes / 1e3), number(s.microseconds)});
     }
@@ -57,7 +57,7 @@ void add_summary(const Experiment& experiment, const Findings& findings, HtmlPag
         "the L2 error {} and {} images after it rests and of the last image. Errors "
         "are relative to the dense product of the stored transport.",
         experiment.sequence.rests_from(), kSoon, kLater));
-    page.table({"method", "L2", "H1", "lighting L1", "flicker", "visible part",
+    page.table({"method", "L2", "H1", "lighting L1", "flicker", "ΔE*ab",
                 fmt::format("rest +{}", kSoon), fmt::format("rest +{}", kLater), "last",
                 "stated / true", "kB", "µs"},
                rows);

@@ -90,6 +90,11 @@ std::uint32_t rest_of(const Curve::Random& /*curve*/) {
         fmt::format("{}: found {}, expected {}", where, found.dump(), expected));
 }
 
+// A whole number from 0 on.
+bool is_count(const nlohmann::json& json) {
+    return json.is_number_integer() && json >= 0;
+}
+
 Curve::Way way_from_json(const nlohmann::json& json, const std::string& where) {
     const auto found = json.find("way");
     if (found == json.end()) {
@@ -112,8 +117,7 @@ Curve::Keys keys_from_json(const nlohmann::json& json, const std::string& where)
         refuse(where + "/keys", keys, kExpected);
     }
     for (const nlohmann::json& key : keys) {
-        if (!key.is_array() || key.size() != 2 || !key[0].is_number_unsigned() ||
-            !key[1].is_number()) {
+        if (!key.is_array() || key.size() != 2 || !is_count(key[0]) || !key[1].is_number()) {
             refuse(where + "/keys", key, kExpected);
         }
         const Curve::Key next{key[0].get<std::uint32_t>(), key[1].get<double>()};
@@ -144,7 +148,7 @@ Curve::Random random_from_json(const nlohmann::json& json,
     const nlohmann::json& random = json.at("random");
     if (!random.is_object() || !random.contains("from") || !random["from"].is_number() ||
         !random.contains("to") || !random["to"].is_number() || !random.contains("every") ||
-        !random["every"].is_number_unsigned() || random["every"].get<std::uint32_t>() == 0) {
+        !is_count(random["every"]) || random["every"].get<std::uint32_t>() == 0) {
         refuse(where + "/random", random, kExpected);
     }
     const Curve::Way way = way_from_json(random, where + "/random");

@@ -1,4 +1,4 @@
-#include "tests/lab/commands/lab_scenes.h"
+#include "tests/lab/scenes/lab_scenes.h"
 
 #include <fmt/format.h>
 
