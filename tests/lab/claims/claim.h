@@ -27,5 +27,6 @@ using ClaimGroup = std::vector<Claim> (*)(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> selector_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> cost_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> priority_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> sh_claims(Evidence& evidence);
 
 }  // namespace relume::lab

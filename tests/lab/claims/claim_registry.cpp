@@ -4,7 +4,7 @@ namespace relume::lab {
 
 const std::vector<ClaimGroup>& claim_groups() {
     static const std::vector<ClaimGroup> groups{rotation_claims, selector_claims, cost_claims,
-                                                priority_claims};
+                                                priority_claims, sh_claims};
     return groups;
 }
 

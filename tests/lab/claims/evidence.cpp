@@ -21,11 +21,19 @@ const Summary& LightRun::of(const std::string& method) const {
 
 Evidence::Evidence(EvidenceOptions options) : options_(std::move(options)) {}
 
-LabScene Evidence::scene(const std::string& builtin) {
+LabScenes& Evidence::scenes() {
     if (!scenes_) {
         scenes_.emplace(options_.cache);
     }
-    return {.haar = scenes_->scene(builtin), .sh_transport = {}};
+    return *scenes_;
+}
+
+LabScene Evidence::scene(const std::string& builtin) {
+    return {.haar = scenes().scene(builtin), .sh_transport = {}};
+}
+
+LabScene Evidence::scene_in_both_bases(const std::string& builtin) {
+    return {.haar = scenes().scene(builtin), .sh_transport = scenes().sh_transport(builtin)};
 }
 
 const std::vector<LightRun>& Evidence::rotations() {

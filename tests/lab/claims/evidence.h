@@ -45,6 +45,8 @@ class Evidence {
     [[nodiscard]] const LabScene& demo() const { return options_.demo; }
     // A built-in scene as the lab bakes it, 128².
     [[nodiscard]] LabScene scene(const std::string& builtin);
+    // The same with the view in spherical harmonics of order 20 beside it.
+    [[nodiscard]] LabScene scene_in_both_bases(const std::string& builtin);
 
     // The demo scene under every light, slow-fast-slow: NWA with 30, 60, 100, 300 and 500
     // terms, BI and PBI with 30, PBI with the two other selectors, all by area.
@@ -58,6 +60,8 @@ class Evidence {
     [[nodiscard]] const std::vector<std::string>& lights() const { return options_.lights; }
 
   private:
+    [[nodiscard]] LabScenes& scenes();
+
     EvidenceOptions options_;
     std::optional<LabScenes> scenes_;
     std::vector<LightRun> rotations_;

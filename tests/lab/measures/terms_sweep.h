@@ -16,7 +16,7 @@ struct TermsCurve {
 
 // Of the experiment's scene, environments and first image; `forms` are methods with {} where
 // the number of terms goes. Numbers grow by about a half from 1 until all coefficients are in;
-// a method that refuses one (spherical harmonics know squares alone) leaves it out. Throws
+// a method that refuses one leaves it out; spherical harmonics take it for their order. Throws
 // std::invalid_argument when a method takes none.
 [[nodiscard]] std::vector<TermsCurve> sweep_terms(const Experiment& experiment,
                                                   const std::vector<std::string>& forms);

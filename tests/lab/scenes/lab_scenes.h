@@ -3,6 +3,7 @@
 
 #include "tests/support/scene_cache.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,10 @@ class LabScenes {
     // Square. Throws as test::SceneCache does.
     [[nodiscard]] std::shared_ptr<const engine::Scene> scene(const std::string& name,
                                                              std::uint32_t side = 128);
+
+    // The folder of the same view in spherical harmonics of order 20.
+    [[nodiscard]] std::filesystem::path sh_transport(const std::string& name,
+                                                     std::uint32_t side = 128);
 
   private:
     test::SceneCache scenes_;
