@@ -51,7 +51,7 @@ TEST(SphericalHarmonics, HaveTheClosedFormsOfTheLowBands) {
 // protocol/README.md §1.
 TEST(SphericalHarmonics, MatchTheWorkedExample) {
     const auto values = values_at({2.0 / 3, -1.0 / 3, 2.0 / 3}, 3);
-    const double expected[] = {0.282095,  -0.162867, 0.325735, 0.325735, -0.242789,
+    const double expected[] = {0.282095,  -0.162868, 0.325735, 0.325735, -0.242789,
                                -0.242789, 0.105131,  0.485577, 0.182091};
     for (std::size_t j = 0; j < std::size(expected); ++j) {
         EXPECT_NEAR(values[j], expected[j], 1e-6) << j;
