@@ -116,7 +116,7 @@ class Bake {
         manifest_.generator = generator();
         manifest_.fingerprint = fingerprint_of(scene, camera_, parameters, generator());
         manifest_.image = image_;
-        manifest_.face_resolution = parameters.face_resolution;
+        manifest_.light_basis = light_basis(parameters);
         manifest_.stating_rows = kStatingRows;
         manifest_.choosing_rows = kChoosingRows;
         manifest_.camera = record_of(camera_);

@@ -1,6 +1,6 @@
 #include "precompute/bake/colour_split.h"
 
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 
 #include <algorithm>
 #include <span>

@@ -2,11 +2,18 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+
+#include <map>
+#include <string>
 
 namespace relume::bake {
 namespace {
 
 void add_bake_options(CLI::App& app, Arguments& arguments) {
+    using Kind = basis::LightBasis::Kind;
+    const std::map<std::string, Kind> kinds{{"haar", Kind::haar},
+                                            {"sh", Kind::spherical_harmonics}};
     BakeParameters& p = arguments.parameters;
     auto* scene =
         app.add_option("scene", arguments.scene, "glTF 2.0, GLB, OBJ or PLY file to bake");
@@ -21,6 +28,12 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--size", arguments.size, "Image size in pixels: WxH [512x512]");
     app.add_option("--light-resolution", p.face_resolution,
                    "Texels along a face of the lighting cubemap, 4 to 256")
+        ->capture_default_str();
+    app.add_option("--basis", p.basis,
+                   "What the columns of the transport stand for: haar wavelets or sh, "
+                   "spherical harmonics [haar]")
+        ->transform(CLI::CheckedTransformer(kinds).description(""));
+    app.add_option("--order", p.order, "Of spherical harmonics: order² columns, 1 to 20")
         ->capture_default_str();
     app.add_option("--bounces", p.bounces,
                    "Reflections after the first surface; 0: direct light only")

@@ -164,7 +164,8 @@ int run_relight(const Arguments& arguments) {
     const auto transport = transport::Transport::open(arguments.directory);
     const transport::Manifest& manifest = transport->manifest();
     const RelitImage relit =
-        relight(*transport, read_cubemap_strip(arguments.light, manifest.face_resolution));
+        relight(*transport,
+                read_cubemap_strip(arguments.light, manifest.light_basis.face_resolution()));
     FloatImage image{relit.width, relit.height, 4, {}};
     for (std::uint32_t y = 0; y < relit.height; ++y) {
         for (std::uint32_t x = 0; x < relit.width; ++x) {

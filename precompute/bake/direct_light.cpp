@@ -1,6 +1,6 @@
 #include "precompute/bake/direct_light.h"
 
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>

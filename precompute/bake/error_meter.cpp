@@ -30,13 +30,14 @@ void ErrorSums::add(const ErrorSums& other) {
     gradient += other.gradient;
 }
 
-ErrorMeter::ErrorMeter(std::uint32_t face_resolution, const Quantisation& quantisation)
+ErrorMeter::ErrorMeter(const basis::CubemapProjection& projection,
+                       const Quantisation& quantisation)
     : quantisation_(quantisation) {
     for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights_.push_back(natural_light(face_resolution, i));
+        lights_.push_back(natural_light(projection.basis(), i));
     }
     for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights_.push_back(sun_light(face_resolution, i));
+        lights_.push_back(sun_light(projection, i));
     }
 }
 

@@ -30,7 +30,7 @@ using BlockErrors = std::array<ErrorSums, kLightKinds>;
 
 class ErrorMeter {
   public:
-    ErrorMeter(std::uint32_t face_resolution, const Quantisation& quantisation);
+    ErrorMeter(const basis::CubemapProjection& projection, const Quantisation& quantisation);
 
     static constexpr std::size_t kLightsPerKind = 4;
     // B and B̃ of a pixel under every light, in red, green and blue.

@@ -31,6 +31,12 @@ void collect(std::vector<std::string>& faults, Check check) {
     }
 }
 
+std::string basis_text(const nlohmann::json& basis) {
+    return basis.contains("order")
+               ? fmt::format("spherical harmonics of order {}", basis.at("order").get<int>())
+               : "Haar";
+}
+
 std::string megabytes(double bytes) {
     return fmt::format("{:.1f} MB", bytes / 1e6);
 }
@@ -44,7 +50,7 @@ nlohmann::json describe(const std::filesystem::path& directory) {
         {"directory", directory.string()},
         {"generator", manifest.generator},
         {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
-        {"basis", {{"name", "haar"}, {"face_resolution", manifest.face_resolution}}},
+        {"basis", transport::json_from(manifest.light_basis)},
         {"columns", transport->column_count()},
         {"colour",
          {{"channels", manifest.colour.channels}, {"matrix", manifest.colour.matrix}}},
@@ -67,13 +73,14 @@ std::string text_from_description(const nlohmann::json& d) {
     const auto bytes = d.at("bytes").get<double>();
     const double pixels = image.at("width").get<double>() * image.at("height").get<double>();
     std::string text = fmt::format(
-        "{}\n  {}×{} pixels, 6×{n}×{n} lights, Haar; {} channel(s) in {} shard(s)\n"
+        "{}\n  {}×{} pixels, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
         "  {}, {:.0f} bytes and {:.0f} non-zeros per pixel\n",
         d.at("directory").get<std::string>(), image.at("width").get<int>(),
         image.at("height").get<int>(), d.at("colour").at("channels").get<int>(),
         d.at("shards").get<int>(), megabytes(bytes), bytes / pixels,
         d.at("nonzeros").get<double>() / pixels,
-        fmt::arg("n", d.at("basis").at("face_resolution").get<int>()));
+        fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
+        fmt::arg("basis", basis_text(d.at("basis"))));
     const auto& measured = d.at("measured");
     if (measured.contains("cells")) {
         for (const auto& [name, cells] : measured.at("cells").items()) {

@@ -2,23 +2,25 @@
 // measure what they cost: no map is at hand when a scene is baked.
 #pragma once
 
+#include "protocol/basis/cubemap_projection.h"
+
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace relume::bake {
 
-// Coefficients of natural light fall off as 2^(−kNaturalFalloff·band). Photographs show an
+// Coefficients of natural light fall off as 2^(−kNaturalFalloff·octave). Photographs show an
 // exponent of one [Dror04]; a bare sun shows zero; this is what the harder half of eight CC0
 // maps shows, those with lamps or a sun in them.
 inline constexpr float kNaturalFalloff = 0.25F;
 
-// Colourless lighting coefficients, basis/haar.h, of mean radiance 1.
+// Colourless lighting coefficients of mean radiance 1.
 //
-// - Natural: a constant plus noise of equal standard deviation.
+// - Natural: a constant plus noise of equal standard deviation, as far as the basis holds it.
 // - Sun: one texel of the upper half of the world holds all the energy.
-[[nodiscard]] std::vector<float> natural_light(std::uint32_t face_resolution,
+[[nodiscard]] std::vector<float> natural_light(const basis::LightBasis& basis,
                                                std::uint64_t seed);
-[[nodiscard]] std::vector<float> sun_light(std::uint32_t face_resolution, std::uint64_t seed);
+[[nodiscard]] std::vector<float> sun_light(const basis::CubemapProjection& projection,
+                                           std::uint64_t seed);
 
 }  // namespace relume::bake

@@ -1,7 +1,7 @@
 #include "precompute/bake/light_texels.h"
 
 #include "precompute/bake/sobol.h"
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "precompute/bake/error.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/format.h"
+#include "protocol/transport/manifest.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,9 @@ void check_parameters(const BakeParameters& p) {
             "light resolution is {}, expected a power of two from {} to {}", p.face_resolution,
             basis::kMinFaceResolution, basis::kMaxFaceResolution));
     }
+    if (p.basis == basis::LightBasis::Kind::spherical_harmonics) {
+        require_range("order", p.order, 1U, basis::kMaxShOrder);
+    }
     require_range("bounces", p.bounces, 0U, 1000U);
     require_range("samples", p.samples, 1U, kMaxSamples);
     require_range("bits", p.bits, 6U, 8U);
@@ -40,18 +44,30 @@ void check_parameters(const BakeParameters& p) {
     require_range("threads", p.threads, 0U, 1024U);
 }
 
+basis::LightBasis light_basis(const BakeParameters& p) {
+    return p.basis == basis::LightBasis::Kind::haar
+               ? basis::LightBasis::haar(p.face_resolution)
+               : basis::LightBasis::spherical_harmonics(p.order, p.face_resolution);
+}
+
 nlohmann::json json_from_parameters(const BakeParameters& p) {
-    return {{"width", p.width},
-            {"height", p.height},
-            {"light_resolution", p.face_resolution},
-            {"bounces", p.bounces},
-            {"samples", p.samples},
-            {"bits", p.bits},
-            {"pixel_samples", p.pixel_samples},
-            {"edge_samples", p.edge_samples},
-            {"pool_radius", p.pool_radius},
-            {"shrinkage", p.shrinkage},
-            {"seed", p.seed}};
+    nlohmann::json object{{"width", p.width},
+                          {"height", p.height},
+                          {"light_resolution", p.face_resolution},
+                          {"bounces", p.bounces},
+                          {"samples", p.samples},
+                          {"bits", p.bits},
+                          {"pixel_samples", p.pixel_samples},
+                          {"edge_samples", p.edge_samples},
+                          {"pool_radius", p.pool_radius},
+                          {"shrinkage", p.shrinkage},
+                          {"seed", p.seed}};
+    // What Haar bakes are hashed by has no such keys.
+    if (p.basis == basis::LightBasis::Kind::spherical_harmonics) {
+        object["basis"] = transport::name_of(p.basis);
+        object["order"] = p.order;
+    }
+    return object;
 }
 
 }  // namespace relume::bake

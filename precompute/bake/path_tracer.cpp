@@ -28,6 +28,15 @@ Imath::V3f demodulated(const scene::Bsdf& bsdf, const Imath::V3f& weight) {
 
 }  // namespace
 
+std::size_t texel_index_from_key(std::uint32_t face_resolution, std::uint32_t key) {
+    const std::uint32_t face_size = face_resolution * face_resolution;
+    const std::uint32_t morton = key % face_size;
+    return basis::index_from_texel(face_resolution,
+                                   {.face = static_cast<basis::Face>(key / face_size),
+                                    .row = morton_even(morton >> 1U),
+                                    .column = morton_even(morton)});
+}
+
 Imath::V3f reflectance(const scene::Bsdf& bsdf) {
     if (bsdf.is_diffuse()) {
         return bsdf.diffuse_colour();

@@ -37,6 +37,10 @@ struct SurfacePaths {
     return face * face_resolution * face_resolution + morton;
 }
 
+// Where in basis/cubemap.h the texel of a key lies.
+[[nodiscard]] std::size_t texel_index_from_key(std::uint32_t face_resolution,
+                                               std::uint32_t key);
+
 class PathTracer {
   public:
     // `bounces`: scattering events after the first surface, at least 1.

@@ -131,7 +131,7 @@ StepChooser look_at_tiles(const RowBaker& rows,
                           const transport::TileGrid& image,
                           const BakeParameters& parameters) {
     const std::vector<Tile> tiles = pilot_tiles(window, image, parameters.seed);
-    StepChooser chooser(parameters.face_resolution, tiles.size());
+    StepChooser chooser(light_basis(parameters), tiles.size());
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(std::size_t{0}, tiles.size() * transport::kBlockSize, [&](std::size_t i) {
         const std::size_t tile = i / transport::kBlockSize;

@@ -2,7 +2,7 @@
 
 #include "precompute/bake/error.h"
 #include "precompute/scene/surface_point.h"
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 
 #include <fmt/format.h>
 

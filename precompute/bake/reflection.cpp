@@ -1,7 +1,7 @@
 #include "precompute/bake/reflection.h"
 
+#include "protocol/basis/cpu_clones.h"
 #include "protocol/basis/cubemap.h"
-#include "protocol/transport/cpu_clones.h"
 
 #include <Imath/ImathVec.h>
 

@@ -2,7 +2,7 @@
 
 #include "precompute/bake/error.h"
 #include "protocol/basis/cubemap.h"
-#include "protocol/basis/haar.h"
+#include "protocol/basis/cubemap_projection.h"
 #include "protocol/transport/receiver_basis.h"
 
 #include <OpenImageIO/imageio.h>
@@ -18,11 +18,12 @@ namespace relume::bake {
 namespace {
 
 using transport::kBlockSize;
+using Coefficients = std::array<std::vector<float>, 3>;  // of the light, N values a colour
 
 // Adds the columns of one shard to `pixels`, [blocks][3][256].
 void add_shard(const transport::Transport& transport,
                const transport::ShardReader& shard,
-               const CubemapLight& coefficients,
+               const Coefficients& coefficients,
                std::vector<double>& pixels) {
     const transport::ColourModel& colour = transport.manifest().colour;
     transport::DecodedCell values;
@@ -72,13 +73,16 @@ void to_receivers(std::vector<double>& sums) {
 
 RelitImage relight(const transport::Transport& transport, const CubemapLight& light) {
     const transport::Manifest& manifest = transport.manifest();
-    CubemapLight coefficients = light;
-    for (auto& plane : coefficients) {
-        if (plane.size() != transport.column_count()) {
-            throw BakeError(fmt::format("the light has {} texels, expected {}", plane.size(),
-                                        transport.column_count()));
+    const auto projection = basis::CubemapProjection::onto(manifest.light_basis);
+    const std::size_t texels = basis::texel_count(manifest.light_basis.face_resolution());
+    Coefficients coefficients;
+    for (std::size_t c = 0; c < light.size(); ++c) {
+        if (light[c].size() != texels) {
+            throw BakeError(
+                fmt::format("the light has {} texels, expected {}", light[c].size(), texels));
         }
-        basis::haar_forward_cubemap(manifest.face_resolution, plane);
+        coefficients[c].resize(transport.column_count());
+        projection->project_radiance(light[c], coefficients[c]);
     }
     std::vector<double> pixels(std::size_t{manifest.block_count()} * 3 * kBlockSize);
     tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {

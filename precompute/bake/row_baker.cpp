@@ -1,7 +1,6 @@
 #include "precompute/bake/row_baker.h"
 
-#include "protocol/basis/haar.h"
-#include "protocol/transport/cpu_clones.h"
+#include "protocol/basis/cpu_clones.h"
 
 #include <span>
 
@@ -16,24 +15,14 @@ RELUME_CPU_CLONES void scale(std::span<const float> source,
     }
 }
 
-// Response to a constant environment: a face's scaling coefficient is its sum over n.
-Imath::V3f white_response(std::uint32_t n, const CoefficientRow& row) {
-    Imath::V3f white{0, 0, 0};
-    for (int c = 0; c < 3; ++c) {
-        for (std::size_t face = 0; face < basis::kFaceCount; ++face) {
-            white[c] += row.rgb[static_cast<std::size_t>(c)][face * n * n];
-        }
-    }
-    return white * static_cast<float>(n);
-}
-
 }  // namespace
 
 RowBaker::RowBaker(const RayCaster& caster,
                    const LightTexels& texels,
                    const BakeParameters& parameters)
-    : face_resolution_(texels.face_resolution()),
-      shrinkage_(parameters.shrinkage),
+    : projection_(basis::CubemapProjection::onto(light_basis(parameters))),
+      escapes_(EscapeProjection::onto(projection_, parameters.shrinkage)),
+      constant_light_(projection_->basis().constant_light()),
       seed_(parameters.seed),
       direct_(caster, texels, parameters.edge_samples) {}
 
@@ -45,22 +34,35 @@ void RowBaker::bake(const TracedPixel& pixel,
                     Scratch& scratch) const {
     TexelRow& texels = scratch.texels;
     direct_.compute(pixel.view, x, y, seed_, texels, scratch.direct);
+    const std::size_t count = projection_->basis().coefficient_count();
+    for (auto& plane : row.rgb) {
+        plane.resize(count);
+    }
     if (texels.is_grey) {
-        basis::haar_forward_cubemap(face_resolution_, texels.plane[0]);
+        scratch.grey.resize(count);
+        projection_->project_response(texels.plane[0], scratch.grey);
         for (std::size_t c = 0; c < 3; ++c) {
-            const float factor = texels.colour[static_cast<int>(c)];
-            row.rgb[c].resize(texels.plane[0].size());
-            scale(texels.plane[0], factor, row.rgb[c]);
+            scale(scratch.grey, texels.colour[static_cast<int>(c)], row.rgb[c]);
         }
     } else {
         for (std::size_t c = 0; c < 3; ++c) {
-            std::swap(row.rgb[c], texels.plane[c]);
-            basis::haar_forward_cubemap(face_resolution_, row.rgb[c]);
+            projection_->project_response(texels.plane[c], row.rgb[c]);
         }
     }
-    row.direct_white = white_response(face_resolution_, row);
+    row.direct_white = white_response(row);
     add_indirect(pixel, x, y, pool, row, scratch);
-    row.white = white_response(face_resolution_, row);
+    row.white = white_response(row);
+}
+
+// Response to a constant environment.
+Imath::V3f RowBaker::white_response(const CoefficientRow& row) const {
+    Imath::V3f white{0, 0, 0};
+    for (int c = 0; c < 3; ++c) {
+        for (const auto& [coefficient, value] : constant_light_) {
+            white[c] += row.rgb[static_cast<std::size_t>(c)][coefficient] * value;
+        }
+    }
+    return white;
 }
 
 void RowBaker::add_indirect(const TracedPixel& pixel,
@@ -76,8 +78,7 @@ void RowBaker::add_indirect(const TracedPixel& pixel,
             gather_own(pixel.paths[i], scratch.contributions);
         }
         scratch.coefficients.clear();
-        project_with_shrinkage(face_resolution_, scratch.contributions, shrinkage_,
-                               scratch.coefficients);
+        escapes_->project(scratch.contributions, scratch.coefficients);
         const PixelSurface& surface = pixel.view.surfaces[i];
         const Imath::V3f factor =
             reflectance(surface.point.bsdf) * surface.tint * surface.share;

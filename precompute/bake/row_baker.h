@@ -2,13 +2,15 @@
 #pragma once
 
 #include "precompute/bake/direct_light.h"
+#include "precompute/bake/escape_projection.h"
 #include "precompute/bake/path_pool.h"
-#include "precompute/bake/shrinkage.h"
+#include "protocol/basis/cubemap_projection.h"
 
 #include <Imath/ImathVec.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace relume::bake {
@@ -25,10 +27,13 @@ class RowBaker {
              const LightTexels& texels,
              const BakeParameters& parameters);
 
+    [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
+
     // One per thread.
     struct Scratch {
         DirectLight::Scratch direct;
         TexelRow texels;
+        std::vector<float> grey;  // coefficients of a row without colour
         std::vector<Contribution> contributions;
         std::vector<Coefficient> coefficients;
     };
@@ -49,8 +54,11 @@ class RowBaker {
                       CoefficientRow& row,
                       Scratch& scratch) const;
 
-    std::uint32_t face_resolution_;
-    float shrinkage_;
+    [[nodiscard]] Imath::V3f white_response(const CoefficientRow& row) const;
+
+    std::shared_ptr<const basis::CubemapProjection> projection_;
+    std::unique_ptr<const EscapeProjection> escapes_;
+    std::vector<basis::LightBasis::Term> constant_light_;
     std::uint64_t seed_;
     DirectLight direct_;
 };

@@ -35,7 +35,7 @@ ShardBaker::ShardBaker(const RowBaker& rows,
       pool_(window, parameters.pool_radius),
       image_(image),
       quantisation_(quantisation),
-      meter_(parameters.face_resolution, quantisation) {}
+      meter_(rows.projection(), quantisation) {}
 
 BakedShard ShardBaker::bake(std::uint32_t first_block,
                             std::uint32_t block_count,

@@ -1,8 +1,6 @@
 #include "precompute/bake/step_chooser.h"
 
 #include "precompute/bake/light_model.h"
-#include "protocol/basis/cubemap.h"
-#include "protocol/basis/haar.h"
 #include "protocol/transport/quantise.h"
 #include "protocol/transport/receiver_basis.h"
 
@@ -44,12 +42,12 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(std::uint32_t face_resolution, std::size_t tiles)
-    : face_resolution_(face_resolution), tiles_(tiles) {
-    const std::size_t count = basis::texel_count(face_resolution);
-    std::vector<std::vector<std::uint32_t>> of_band(basis::band_count(face_resolution));
+StepChooser::StepChooser(const basis::LightBasis& basis, std::size_t tiles)
+    : basis_(basis), tiles_(tiles) {
+    const std::size_t count = basis.coefficient_count();
+    std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());
     for (std::uint32_t j = 0; j < count; ++j) {
-        of_band[basis::band_from_coefficient(face_resolution, j)].push_back(j);
+        of_band[basis.band_from_coefficient(j)].push_back(j);
     }
     for (std::uint32_t band = 0; band < of_band.size(); ++band) {
         const std::size_t all = of_band[band].size();
@@ -82,7 +80,8 @@ StepChooser::SquaredErrors StepChooser::sum_over_cells(Error error_of) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         const Column& column = columns_[i];
         const double error = errors[i] * column.weight;
-        total.natural += std::exp2(-2.0 * double{kNaturalFalloff} * column.band) * error;
+        const double octave = basis_.octave_from_band(column.band);
+        total.natural += std::exp2(-2.0 * double{kNaturalFalloff} * octave) * error;
         // A lone texel's coefficients have the same energy in every band.
         total.lone_light += error;
     }
@@ -143,8 +142,8 @@ std::vector<float> StepChooser::steps(std::uint32_t bits,
     for (const Cell& cell : cells_) {
         high = std::max(high, largest(cell));
     }
-    const auto growth = [](std::uint32_t band) {
-        return std::exp2(kStepGrowth * static_cast<float>(band));
+    const auto growth = [this](std::uint32_t band) {
+        return std::exp2(kStepGrowth * basis_.octave_from_band(band));
     };
     const float scale = largest_within(high, [&](float candidate) {
         return errors([&](const Column& column) {
@@ -155,9 +154,8 @@ std::vector<float> StepChooser::steps(std::uint32_t bits,
         return errors([&](const Column&) { return step; }).lone_light < target.lone_light;
     });
     std::vector<float> steps;
-    const std::size_t count = basis::texel_count(face_resolution_);
-    for (std::size_t j = 0; j < count; ++j) {
-        const std::uint32_t band = basis::band_from_coefficient(face_resolution_, j);
+    for (std::size_t j = 0; j < basis_.coefficient_count(); ++j) {
+        const std::uint32_t band = basis_.band_from_coefficient(j);
         for (std::uint32_t k = 0; k < colour.channels; ++k) {
             // So that a channel's error weighs alike in the colours.
             double norm = 0;

@@ -1,6 +1,6 @@
 // How finely each column is to be quantised, from the rows of a few tiles.
 //
-// Steps grow with the band, step(band) = c·2^(β·band), as the coefficients of natural light
+// Steps grow with the band, step(band) = c·2^(β·octave), as the coefficients of natural light
 // fall with it: reverse water-filling spreads the expected error of the image evenly. c is set
 // so that under natural light the expected error equals that of [Ng03], which spends `bits`
 // bits on the range of each column, pixel by pixel. Natural light hardly weighs the fine bands,
@@ -8,6 +8,7 @@
 // too.
 #pragma once
 
+#include "protocol/basis/light_basis.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/manifest.h"
 
@@ -21,7 +22,7 @@ namespace relume::bake {
 class StepChooser {
   public:
     // Keeps some columns of every band.
-    StepChooser(std::uint32_t face_resolution, std::size_t tiles);
+    StepChooser(const basis::LightBasis& basis, std::size_t tiles);
 
     // The row of a receiver, N values; receivers never set are zero. Thread-safe for different
     // receivers.
@@ -50,7 +51,7 @@ class StepChooser {
     template <typename Step>
     [[nodiscard]] SquaredErrors errors(Step step) const;
 
-    std::uint32_t face_resolution_;
+    basis::LightBasis basis_;
     std::size_t tiles_;
     std::vector<Column> columns_;
     std::vector<Cell> cells_;  // [columns][tiles]

@@ -52,8 +52,8 @@ float displayed(float x) {
 void write_thumbnail(const std::filesystem::path& directory, const ViewImages& view) {
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
-    const RelitImage relit =
-        relight(*transport, thumbnail_light(manifest.face_resolution, manifest.camera));
+    const RelitImage relit = relight(
+        *transport, thumbnail_light(manifest.light_basis.face_resolution(), manifest.camera));
     constexpr float kBackdrop = 0.12F;
     std::vector<float> pixels;
     for (std::size_t i = 0; i < view.coverage.size(); ++i) {

@@ -1,6 +1,5 @@
 #include "protocol/transport/manifest.h"
 
-#include "protocol/basis/cubemap.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 
@@ -13,6 +12,7 @@ namespace relume::transport {
 namespace {
 
 using nlohmann::json;
+using Kind = basis::LightBasis::Kind;
 
 // Reads members of one object, naming the place in every complaint.
 class ObjectReader {
@@ -165,6 +165,23 @@ ColourModel colour_model(const ObjectReader& object) {
     return colour;
 }
 
+basis::LightBasis light_basis(const ObjectReader& object) {
+    const std::string name = object.text("name");
+    const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
+                                             basis::kMaxFaceResolution);
+    if (!basis::is_face_resolution(n)) {
+        object.fail("face_resolution", std::to_string(n), "a power of two from 4 to 256");
+    }
+    if (name == name_of(Kind::haar)) {
+        return basis::LightBasis::haar(n);
+    }
+    if (name == name_of(Kind::spherical_harmonics)) {
+        return basis::LightBasis::spherical_harmonics(
+            object.integer32("order", 1, basis::kMaxShOrder), n);
+    }
+    object.fail("name", name, "haar or sh");
+}
+
 json json_from(const CameraRecord& camera) {
     return {{"eye", json_from(camera.eye)},
             {"right", json_from(camera.right)},
@@ -243,6 +260,18 @@ void check_first_line(std::string_view text, std::string_view file) {
 
 }  // namespace
 
+std::string_view name_of(Kind kind) {
+    return kind == Kind::haar ? "haar" : "sh";
+}
+
+json json_from(const basis::LightBasis& basis) {
+    json object{{"name", name_of(basis.kind())}, {"face_resolution", basis.face_resolution()}};
+    if (basis.kind() == Kind::spherical_harmonics) {
+        object["order"] = basis.order();
+    }
+    return object;
+}
+
 Imath::V3f CameraRecord::direction_from_pixel(float x, float y, const TileGrid& image) const {
     const float right_amount = (2 * x / static_cast<float>(image.width) - 1) * tan_half_width;
     const float up_amount = (1 - 2 * y / static_cast<float>(image.height)) * tan_half_height;
@@ -261,7 +290,7 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"generator", manifest.generator},
         {"fingerprint", text_from_checksum(manifest.fingerprint)},
         {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
-        {"basis", {{"name", "haar"}, {"face_resolution", manifest.face_resolution}}},
+        {"basis", json_from(manifest.light_basis)},
         {"colour", json_from(manifest.colour)},
         {"blocks", manifest.block_count()},
         {"sketch",
@@ -296,14 +325,7 @@ Manifest manifest_from_text(std::string_view text, std::string_view file) {
     manifest.fingerprint = top.digits("fingerprint");
     manifest.image = {.width = top.object("image").integer32("width", 1, kMaxImageSide),
                       .height = top.object("image").integer32("height", 1, kMaxImageSide)};
-    const ObjectReader basis = top.object("basis");
-    basis.expect_text("name", "haar");
-    manifest.face_resolution = basis.integer32("face_resolution", basis::kMinFaceResolution,
-                                               basis::kMaxFaceResolution);
-    if (!basis::is_face_resolution(manifest.face_resolution)) {
-        basis.fail("face_resolution", std::to_string(manifest.face_resolution),
-                   "a power of two from 4 to 256");
-    }
+    manifest.light_basis = light_basis(top.object("basis"));
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
     const ObjectReader sketch = top.object("sketch");

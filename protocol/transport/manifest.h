@@ -1,6 +1,7 @@
 // manifest.json: what a transport directory is, and the length and checksum of all it holds.
 #pragma once
 
+#include "protocol/basis/light_basis.h"
 #include "protocol/transport/format.h"
 
 #include <Imath/ImathVec.h>
@@ -14,6 +15,10 @@
 #include <vector>
 
 namespace relume::transport {
+
+// As the manifest and people name a basis: "haar", "sh".
+[[nodiscard]] std::string_view name_of(basis::LightBasis::Kind kind);
+[[nodiscard]] nlohmann::json json_from(const basis::LightBasis& basis);
 
 struct FileRecord {
     std::string file;
@@ -56,7 +61,7 @@ struct Manifest {
     std::string generator;
     std::uint64_t fingerprint = 0;
     TileGrid image;
-    std::uint32_t face_resolution = 0;
+    basis::LightBasis light_basis;
     ColourModel colour;
     std::uint32_t stating_rows = 0;   // of the sketch that states errors
     std::uint32_t choosing_rows = 0;  // of the sketch by which a server chooses what to do
@@ -68,9 +73,9 @@ struct Manifest {
     nlohmann::json bake = nlohmann::json::object();
     nlohmann::json measured = nlohmann::json::object();
 
-    // Coefficients, N = 6·n².
+    // Coefficients of the basis, N.
     [[nodiscard]] std::uint32_t column_count() const {
-        return 6 * face_resolution * face_resolution;
+        return static_cast<std::uint32_t>(light_basis.coefficient_count());
     }
     [[nodiscard]] std::uint32_t block_count() const { return image.block_count(); }
 };

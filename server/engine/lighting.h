@@ -1,4 +1,4 @@
-// Target lighting L and its approximation L̃, as Haar coefficients.
+// Target lighting L and its approximation L̃, as coefficients of the scene's basis.
 #pragma once
 
 #include "server/engine/plan.h"

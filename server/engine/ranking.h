@@ -60,7 +60,7 @@ class Ranking {
     std::vector<float> as_shown_;      // [N]
     std::vector<float> from_nothing_;  // [N]
     std::vector<Summary> chunks_;
-    std::array<Summary, kMaxBands> bands_{};
+    std::array<Summary, basis::kMaxBands> bands_{};
     ImportanceBuckets buckets_;
     std::uint32_t bands_nearer_from_nothing_ = 0;
 };

@@ -1,7 +1,5 @@
 #include "server/engine/scene.h"
 
-#include "protocol/basis/haar.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,21 +10,21 @@ using transport::kColours;
 
 Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)),
-      band_count_(basis::band_count(transport_->manifest().face_resolution)) {
+      projection_(basis::CubemapProjection::onto(light_basis())) {
     const std::size_t count = transport_->column_count();
     bands_.resize(count);
     for (auto& weights : weights_) {
         weights.resize(kColours * count);
     }
     for (std::size_t j = 0; j < count; ++j) {
-        const std::uint32_t band = basis::band_from_coefficient(face_resolution(), j);
+        const std::uint32_t band = light_basis().band_from_coefficient(j);
         bands_[j] = static_cast<std::uint8_t>(band);
         const std::uint32_t bytes = transport_->column_bytes(j);
         for (std::uint32_t c = 0; c < kColours; ++c) {
             const std::size_t place = c * count + j;
             weights_[static_cast<std::size_t>(wire::Priority::none)][place] = 1;
             weights_[static_cast<std::size_t>(wire::Priority::area)][place] =
-                std::ldexp(1.0F, -static_cast<int>(band));
+                std::exp2(-light_basis().octave_from_band(band));
             const float norm = std::sqrt(transport_->energy(j, c));
             weights_[static_cast<std::size_t>(wire::Priority::transport)][place] = norm;
             // A column without bytes is zero and gains nothing.

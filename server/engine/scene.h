@@ -1,6 +1,7 @@
 // What all sessions of one scene share: the mapped transport and what follows from it.
 #pragma once
 
+#include "protocol/basis/cubemap_projection.h"
 #include "protocol/transport/transport.h"
 #include "protocol/wire/session_state.h"
 
@@ -11,9 +12,6 @@
 #include <vector>
 
 namespace relume::engine {
-
-// Levels of a face of 256×256.
-inline constexpr std::uint32_t kMaxBands = 8;
 
 // Places [first, last) in Scene::columns_by_band, all of one band.
 struct BandChunk {
@@ -31,17 +29,22 @@ class Scene {
     [[nodiscard]] const transport::TileGrid& image() const {
         return transport_->manifest().image;
     }
-    [[nodiscard]] std::uint32_t face_resolution() const {
-        return transport_->manifest().face_resolution;
+    [[nodiscard]] const basis::LightBasis& light_basis() const {
+        return transport_->manifest().light_basis;
     }
-    // Coefficients, N = 6·n².
+    // From a cubemap of light of resolution `face_resolution()` to coefficients.
+    [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
+    [[nodiscard]] std::uint32_t face_resolution() const {
+        return light_basis().face_resolution();
+    }
+    // Coefficients of the basis, N.
     [[nodiscard]] std::size_t coefficient_count() const { return bands_.size(); }
     [[nodiscard]] std::uint32_t block_count() const {
         return transport_->manifest().block_count();
     }
     // Floats of one image of sums: [blocks][3][256].
     [[nodiscard]] std::size_t sum_count() const;
-    [[nodiscard]] std::uint32_t band_count() const { return band_count_; }
+    [[nodiscard]] std::uint32_t band_count() const { return light_basis().band_count(); }
     // Band of every coefficient, [N].
     [[nodiscard]] std::span<const std::uint8_t> bands() const { return bands_; }
 
@@ -62,10 +65,10 @@ class Scene {
 
     // What a coefficient's change is multiplied with, per colour, to rank it: [3][N], planar.
     //   none       1                                             [Ng03 §4.1, unweighted]
-    //   area       2^-level, the amplitude·area of the wavelet    [Ng03 §4.1, area-weighted]
-    //   transport  ‖T_j‖ of the colour                           [Ng03 §4.1,
-    //   transport-weighted] benefit    ‖T_j‖ / √(bytes of the column): squared, what the image
-    //   gains per byte read
+    //   area       2^−octave of the band: a wavelet's amplitude·area [Ng03 §4.1,
+    //              area-weighted]; for spherical harmonics the inverse of the tolerance, README
+    //   transport  ‖T_j‖ of the colour                    [Ng03 §4.1, transport-weighted]
+    //   benefit    ‖T_j‖ / √(bytes of the column): squared, what the image gains per byte read
     [[nodiscard]] std::span<const float> weights(wire::Priority priority) const {
         return weights_[static_cast<std::size_t>(priority)];
     }
@@ -74,7 +77,7 @@ class Scene {
     void order_by_band();
 
     std::shared_ptr<const transport::Transport> transport_;
-    std::uint32_t band_count_;
+    std::shared_ptr<const basis::CubemapProjection> projection_;
     std::vector<std::uint8_t> bands_;
     std::vector<std::uint32_t> columns_by_band_;
     std::vector<std::size_t> band_begins_;  // [bands + 1], places in columns_by_band_

@@ -43,8 +43,9 @@ class Session {
   public:
     Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy);
 
-    // Target lighting: Haar coefficients of radiance, planar [3][N], all finite (throws
-    // std::invalid_argument otherwise, or when the count is wrong; the session is unchanged).
+    // Target lighting: coefficients of radiance in the basis of the scene, planar [3][N], all
+    // finite (throws std::invalid_argument otherwise, or when the count is wrong; the session
+    // is unchanged).
     void set_lighting(std::span<const float> coefficients);
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(wire::Strategy strategy) { strategy_ = strategy; }
@@ -96,7 +97,6 @@ class Session {
         std::size_t sessions = 1;  // among which its milliseconds are divided
     };
 
-    void write_block(std::uint32_t block, std::span<float> rgb) const;
     [[nodiscard]] Intent intend(const Share& share);
     // Chooses; the approximation and the image stay as they are.
     [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);

@@ -1,7 +1,6 @@
 #include "server/light/light_cubemap.h"
 
 #include "protocol/basis/cubemap.h"
-#include "protocol/basis/haar.h"
 
 #include <fmt/core.h>
 
@@ -51,13 +50,19 @@ Imath::V3d total_energy(const LightCubemap& cubemap) {
 }
 
 void lighting_coefficients(const LightCubemap& cubemap,
+                           const basis::CubemapProjection& projection,
                            std::vector<float>& planar_coefficients) {
-    planar_coefficients = cubemap.radiance;
-    const std::size_t size = cubemap.plane_size();
-    for (std::size_t colour = 0; colour < 3; ++colour) {
-        basis::haar_forward_cubemap(
-            cubemap.face_resolution,
-            std::span<float>(planar_coefficients).subspan(colour * size, size));
+    if (cubemap.face_resolution != projection.basis().face_resolution()) {
+        throw std::invalid_argument(fmt::format(
+            "the lighting cubemap has face resolution {}, the projection expects {}",
+            cubemap.face_resolution, projection.basis().face_resolution()));
+    }
+    const std::size_t count = projection.basis().coefficient_count();
+    const auto planes = cubemap.planes();
+    planar_coefficients.resize(planes.size() * count);
+    for (std::size_t colour = 0; colour < planes.size(); ++colour) {
+        projection.project_radiance(
+            planes[colour], std::span(planar_coefficients).subspan(colour * count, count));
     }
 }
 

@@ -1,6 +1,8 @@
 // The lighting cubemap: mean radiance of every texel, by colour.
 #pragma once
 
+#include "protocol/basis/cubemap_projection.h"
+
 #include <Imath/ImathVec.h>
 
 #include <array>
@@ -31,9 +33,10 @@ struct LightCubemap {
 // ∫ radiance dω per colour.
 [[nodiscard]] Imath::V3d total_energy(const LightCubemap& cubemap);
 
-// The Haar coefficients of radiance, planar 3·6·n² (protocol/README.md §1). The vector is
-// resized.
+// The coefficients of radiance, planar [3][N] (protocol/README.md §1). The vector is resized.
+// Throws std::invalid_argument when the projection is of another resolution.
 void lighting_coefficients(const LightCubemap& cubemap,
+                           const basis::CubemapProjection& projection,
                            std::vector<float>& planar_coefficients);
 
 }  // namespace relume::light

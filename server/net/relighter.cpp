@@ -111,7 +111,7 @@ void Relighter::set_rig(const wire::SessionState& state,
         rig_.lights.push_back(area_light_from(light));
     }
     light::evaluate(rig_, n, cubemap_);
-    light::lighting_coefficients(cubemap_, coefficients_);
+    light::lighting_coefficients(cubemap_, scene_->engine->projection(), coefficients_);
     session_.set_lighting(coefficients_);
 }
 

@@ -38,7 +38,7 @@ void write_dense_transport(const std::filesystem::path& directory,
     transport::Manifest manifest;
     manifest.generator = "relume-bench";
     manifest.image = {.width = size.width, .height = size.height};
-    manifest.face_resolution = size.face_resolution;
+    manifest.light_basis = basis::LightBasis::haar(size.face_resolution);
     manifest.stating_rows = transport::kMinSketchRows;
     manifest.choosing_rows = transport::kMinSketchRows;
     manifest.colour.matrix = {{{1}, {1}, {1}}};

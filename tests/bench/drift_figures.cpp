@@ -32,7 +32,9 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
     light::LightCubemap cubemap;
     light::evaluate(rig, face_resolution, cubemap);
     std::vector<float> coefficients;
-    light::lighting_coefficients(cubemap, coefficients);
+    const auto projection =
+        basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution));
+    light::lighting_coefficients(cubemap, *projection, coefficients);
     return coefficients;
 }
 

@@ -20,7 +20,7 @@ ImagePipeline::~ImagePipeline() {
 void ImagePipeline::turn_light(std::size_t number) {
     rig_ = drag_.rig(number);
     light::evaluate(rig_, scene_->face_resolution(), cubemap_);
-    light::lighting_coefficients(cubemap_, coefficients_);
+    light::lighting_coefficients(cubemap_, scene_->projection(), coefficients_);
     session_.set_lighting(coefficients_);
 }
 

@@ -50,7 +50,7 @@ std::vector<std::uint32_t> most_important(const engine::Scene& scene,
 }  // namespace
 
 LightDrag::LightDrag(std::uint32_t face_resolution)
-    : face_resolution_(face_resolution),
+    : projection_(basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution))),
       environment_(std::make_shared<const light::PrefilteredEnvironment>(
           std::make_shared<const light::EnvironmentMap>(
               light::procedural_environment("sky-afternoon")),
@@ -68,9 +68,9 @@ light::LightRig LightDrag::rig(std::size_t image) const {
 
 std::vector<float> LightDrag::lighting(std::size_t image) const {
     light::LightCubemap cubemap;
-    light::evaluate(rig(image), face_resolution_, cubemap);
+    light::evaluate(rig(image), projection_->basis().face_resolution(), cubemap);
     std::vector<float> coefficients;
-    light::lighting_coefficients(cubemap, coefficients);
+    light::lighting_coefficients(cubemap, *projection_, coefficients);
     return coefficients;
 }
 

@@ -20,11 +20,11 @@ class LightDrag {
     explicit LightDrag(std::uint32_t face_resolution);
 
     [[nodiscard]] light::LightRig rig(std::size_t image) const;
-    // Haar coefficients, planar [3][N].
+    // Coefficients in the Haar basis, planar [3][N].
     [[nodiscard]] std::vector<float> lighting(std::size_t image) const;
 
   private:
-    std::uint32_t face_resolution_;
+    std::shared_ptr<const basis::CubemapProjection> projection_;
     std::shared_ptr<const light::PrefilteredEnvironment> environment_;
 };
 

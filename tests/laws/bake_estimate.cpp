@@ -4,7 +4,6 @@
 #include "precompute/bake/row_baker.h"
 #include "precompute/bake/tile_window.h"
 #include "precompute/scene/camera.h"
-#include "protocol/basis/haar.h"
 #include "protocol/transport/transport.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -34,18 +33,20 @@ bake::BakeParameters unbiased_parameters() {
 LinearImage relit_from_rows(const scene::Scene& scene,
                             const bake::BakeParameters& parameters,
                             const std::vector<Imath::V3f>& light) {
-    const std::uint32_t n = parameters.face_resolution;
-    std::array<std::vector<float>, 3> coefficients;
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (const Imath::V3f& texel : light)
-            coefficients[c].push_back(texel[static_cast<int>(c)]);
-        basis::haar_forward_cubemap(n, coefficients[c]);
-    }
     const bake::RayCaster caster(scene);
-    const bake::LightTexels texels(n, parameters.seed);
+    const bake::LightTexels texels(parameters.face_resolution, parameters.seed);
     const scene::Camera camera(scene.camera, parameters.width, parameters.height);
     const bake::TileWindow window(caster, camera, parameters);
     const bake::RowBaker rows(caster, texels, parameters);
+    const std::size_t columns = rows.projection().basis().coefficient_count();
+    std::array<std::vector<float>, 3> coefficients;
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<float> plane;
+        for (const Imath::V3f& texel : light)
+            plane.push_back(texel[static_cast<int>(c)]);
+        coefficients[c].resize(columns);
+        rows.projection().project_radiance(plane, coefficients[c]);
+    }
     struct Scratch {
         bake::RowBaker::Scratch rows;
         bake::CoefficientRow row;
@@ -60,7 +61,7 @@ LinearImage relit_from_rows(const scene::Scene& scene,
         const auto y = static_cast<std::uint32_t>(p / parameters.width);
         rows.bake(window.trace(x, y), x, y, nullptr, scratch.row, scratch.rows);
         for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t j = 0; j < light.size(); ++j)
+            for (std::size_t j = 0; j < columns; ++j)
                 image.pixels[p][static_cast<int>(c)] +=
                     double{scratch.row.rgb[c][j]} * coefficients[c][j];
         }

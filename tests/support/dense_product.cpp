@@ -1,6 +1,6 @@
 #include "tests/support/dense_product.h"
 
-#include "protocol/basis/haar.h"
+#include "protocol/basis/cubemap_projection.h"
 #include "protocol/transport/cell.h"
 #include "tests/support/tiny_transport.h"
 
@@ -12,20 +12,23 @@ namespace relume::test {
 LinearImage dense_product(const transport::Transport& transport,
                           const std::vector<Imath::V3f>& light) {
     const transport::Manifest& manifest = transport.manifest();
-    if (light.size() != transport.column_count())
+    const auto projection = basis::CubemapProjection::onto(manifest.light_basis);
+    if (light.size() != basis::texel_count(manifest.light_basis.face_resolution()))
         throw std::invalid_argument("the light has other texels than the transport");
-    std::vector<std::vector<float>> planes(3, std::vector<float>(light.size()));
+    std::vector<float> plane(light.size());
+    std::vector<std::vector<float>> coefficients(3,
+                                                 std::vector<float>(transport.column_count()));
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < light.size(); ++i)
-            planes[c][i] = light[i][static_cast<int>(c)];
-        basis::haar_forward_cubemap(manifest.face_resolution, planes[c]);
+            plane[i] = light[i][static_cast<int>(c)];
+        projection->project_radiance(plane, coefficients[c]);
     }
 
     constexpr std::size_t kBlock = transport::kBlockSize;
     std::vector<Imath::V3d> receivers(manifest.block_count() * kBlock, Imath::V3d(0, 0, 0));
     transport::DecodedCell q;
     for (const transport::ShardReader& shard : transport.shards()) {
-        for (std::size_t j = 0; j < light.size(); ++j) {
+        for (std::size_t j = 0; j < transport.column_count(); ++j) {
             for (std::uint32_t k = 0; k < transport.channel_count(); ++k) {
                 const transport::SegmentView segment = shard.segment(j, k);
                 if (segment.empty())
@@ -33,7 +36,7 @@ LinearImage dense_product(const transport::Transport& transport,
                 Imath::V3d factor;
                 for (std::size_t c = 0; c < 3; ++c)
                     factor[static_cast<int>(c)] = double{manifest.colour.matrix[c][k]} *
-                                                  transport.step(j, k) * planes[c][j];
+                                                  transport.step(j, k) * coefficients[c][j];
                 const std::uint8_t* cell = segment.cells;
                 for (std::uint32_t b = 0; b < shard.block_count(); ++b) {
                     if (segment.tag(b) == transport::CellTag::empty)

@@ -1,6 +1,5 @@
 #include "tests/support/tiny_transport.h"
 
-#include "protocol/basis/haar.h"
 #include "protocol/transport/cell.h"
 #include "protocol/transport/transport_writer.h"
 
@@ -36,7 +35,7 @@ transport::Manifest tiny_manifest(const TinyTransportOptions& options) {
     manifest.generator = "relume tests";
     manifest.fingerprint = options.seed;
     manifest.image = {.width = options.width, .height = options.height};
-    manifest.face_resolution = options.face_resolution;
+    manifest.light_basis = options.light_basis;
     manifest.stating_rows = 256;
     manifest.choosing_rows = 64;
     manifest.colour.channels = options.channels;
@@ -53,7 +52,7 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
     transport::BakedTables tables;
     const std::uint32_t channels = manifest.colour.channels;
     for (std::size_t j = 0; j < manifest.column_count(); ++j) {
-        const auto band = basis::band_from_coefficient(manifest.face_resolution, j);
+        const auto band = manifest.light_basis.band_from_coefficient(j);
         for (std::uint32_t k = 0; k < channels; ++k) {
             tables.steps.push_back(std::ldexp(1e-4F, -static_cast<int>(band + k)));
         }

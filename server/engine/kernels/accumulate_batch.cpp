@@ -135,7 +135,8 @@ std::array<std::uint8_t, transport::kBitmapBytes> occupancy(const std::uint8_t* 
     const hn::CappedTag<std::uint8_t, 64> d8;
     std::array<std::uint8_t, transport::kBitmapBytes> bits;
     for (std::size_t slot = 0; slot < kBlockSize; slot += hn::Lanes(d8)) {
-        hn::StoreMaskBits(d8, hn::LoadU(d8, cell + slot) != hn::Zero(d8), &bits[slot / 8]);
+        hn::StoreMaskBits(d8, hn::Ne(hn::LoadU(d8, cell + slot), hn::Zero(d8)),
+                          &bits[slot / 8]);
     }
     return bits;
 }

@@ -1,6 +1,6 @@
 #include "server/light/light_rig.h"
 
-#include "protocol/basis/haar.h"
+#include "protocol/basis/cubemap_projection.h"
 #include "server/light/background.h"
 #include "server/light/rotation_resample.h"
 #include "tests/unit/light/synthetic_maps.h"
@@ -75,23 +75,34 @@ TEST(LightRig, RefusesAnEnvironmentForAnotherResolution) {
     EXPECT_THROW(evaluate(rig, 7, cubemap), std::invalid_argument);
 }
 
-TEST(LightRig, CoefficientsAreTheHaarTransformOfEveryPlane) {
+TEST(LightRig, CoefficientsAreTheProjectionOfEveryPlane) {
     LightRig rig;
     rig.environment =
         std::make_shared<PrefilteredEnvironment>(lat_long_map(32, smooth_radiance), 8);
     LightCubemap cubemap;
     evaluate(rig, 8, cubemap);
-    std::vector<float> coefficients;
-    lighting_coefficients(cubemap, coefficients);
-    ASSERT_EQ(coefficients.size(), cubemap.radiance.size());
-    for (std::size_t colour = 0; colour < 3; ++colour) {
-        const std::size_t size = cubemap.plane_size();
-        const std::span<float> plane(&coefficients[colour * size], size);
-        basis::haar_inverse_cubemap(8, plane);
-        for (std::size_t i = 0; i < size; ++i) {
-            EXPECT_NEAR(plane[i], cubemap.planes()[colour][i], 1e-5F);
+    for (const basis::LightBasis& basis :
+         {basis::LightBasis::haar(8), basis::LightBasis::spherical_harmonics(5, 8)}) {
+        const auto projection = basis::CubemapProjection::onto(basis);
+        const std::size_t count = basis.coefficient_count();
+        std::vector<float> coefficients;
+        lighting_coefficients(cubemap, *projection, coefficients);
+        ASSERT_EQ(coefficients.size(), 3 * count);
+        std::vector<float> expected(count);
+        for (std::size_t colour = 0; colour < 3; ++colour) {
+            projection->project_radiance(cubemap.planes()[colour], expected);
+            for (std::size_t j = 0; j < count; ++j) {
+                EXPECT_EQ(coefficients[colour * count + j], expected[j]);
+            }
         }
     }
+}
+
+TEST(LightRig, RefusesAProjectionOfAnotherResolution) {
+    const auto projection = basis::CubemapProjection::onto(basis::LightBasis::haar(16));
+    std::vector<float> coefficients;
+    EXPECT_THROW(lighting_coefficients(LightCubemap(8), *projection, coefficients),
+                 std::invalid_argument);
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST_F(RoomTest, TheSettledImageIsTheDenseProductOverTransparency) {
 
     const transport::Transport& transport = scenes_.find("tiny")->engine->transport();
     const transport::TileGrid& image = transport.manifest().image;
-    const std::uint32_t n = transport.manifest().face_resolution;
+    const std::uint32_t n = transport.manifest().light_basis.face_resolution();
     light::LightRig rig;
     rig.environment = environments_.find("map")->prefiltered(n);
     rig.rotation = Imath::Quatf(wire::quaternion_from_yaw_pitch_roll_degrees(40, 0, 0));
@@ -135,7 +135,7 @@ TEST_F(RoomTest, TheSettledImageIsTheDenseProductOverTransparency) {
     light::LightCubemap cubemap;
     light::evaluate(rig, n, cubemap);
     std::vector<float> lighting;
-    light::lighting_coefficients(cubemap, lighting);
+    light::lighting_coefficients(cubemap, scenes_.find("tiny")->engine->projection(), lighting);
     std::vector<double> sums = test::dense_product(transport, lighting);
     test::receivers_from_sums(sums);
 

@@ -44,6 +44,22 @@ TEST_P(Directory, OpensWhatWasWritten) {
     EXPECT_GT(transport->manifest().measured.at("cells").at("dense32f").at("cells"), 0);
 }
 
+// A manifest that names another order than the shards were written with.
+TEST_P(Directory, RefusesABasisOfAnotherSize) {
+    options_.light_basis = basis::LightBasis::spherical_harmonics(5, 8);
+    test::write_tiny_transport(path_, options_);
+    EXPECT_EQ(Transport::open(path_)->column_count(), 25U);
+    const std::filesystem::path file = path_ / "manifest.json";
+    for (const basis::LightBasis& basis :
+         {basis::LightBasis::spherical_harmonics(4, 8),
+          basis::LightBasis::spherical_harmonics(6, 8), basis::LightBasis::haar(8)}) {
+        Manifest manifest = manifest_from_text(contents(file), "m");
+        manifest.light_basis = basis;
+        std::ofstream(file, std::ios::binary) << text_from_manifest(manifest);
+        EXPECT_THROW((void)Transport::open(path_), TransportError);
+    }
+}
+
 TEST_P(Directory, TwoBakesOfOneInputGiveIdenticalBytes) {
     const std::filesystem::path other = scratch_.path() / "other.relume";
     test::write_tiny_transport(path_, options_);

@@ -12,7 +12,7 @@ Manifest sample() {
     Manifest manifest;
     manifest.generator = "test";
     manifest.image = {.width = 33, .height = 16};
-    manifest.face_resolution = 8;
+    manifest.light_basis = basis::LightBasis::haar(8);
     manifest.stating_rows = 64;
     manifest.choosing_rows = 32;
     manifest.colour.matrix = {{{1}, {0.5F}, {0.25F}}};
@@ -48,6 +48,42 @@ TEST(Manifest, ComesBackFromItsText) {
     EXPECT_NO_THROW((void)manifest_from_text(changed([](auto&) {}), "m"));
 }
 
+TEST(Manifest, NamesEitherBasisOfLight) {
+    for (const basis::LightBasis& basis :
+         {basis::LightBasis::haar(16), basis::LightBasis::spherical_harmonics(1, 4),
+          basis::LightBasis::spherical_harmonics(basis::kMaxShOrder, 256)}) {
+        Manifest manifest = sample();
+        manifest.light_basis = basis;
+        const Manifest read = manifest_from_text(text_from_manifest(manifest), "m");
+        EXPECT_EQ(read.light_basis, basis);
+        EXPECT_EQ(read.column_count(), basis.coefficient_count());
+    }
+}
+
+TEST(Manifest, RefusesEveryWrongBasis) {
+    const nlohmann::json wrong[] = {
+        {{"name", "sh"}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", 5}},
+        {{"name", "sh"}, {"order", 0}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", 21}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", -1}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", 2.5}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", "5"}, {"face_resolution", 16}},
+        {{"name", "sh"}, {"order", 5}, {"face_resolution", 12}},
+        {{"name", "sh"}, {"order", 5}, {"face_resolution", 2}},
+        {{"name", "SH"}, {"order", 5}, {"face_resolution", 16}},
+        {{"name", nullptr}, {"face_resolution", 16}},
+        {{"face_resolution", 16}},
+        "sh",
+    };
+    for (const nlohmann::json& basis : wrong) {
+        EXPECT_THROW(
+            (void)manifest_from_text(changed([&](auto& m) { m["basis"] = basis; }), "m"),
+            TransportError)
+            << basis;
+    }
+}
+
 TEST(Manifest, NamesFileKeyFoundAndExpected) {
     const auto text = changed([](nlohmann::json& m) { m["image"]["width"] = 99999; });
     try {
@@ -70,7 +106,6 @@ TEST(Manifest, RefusesEveryWrongValue) {
         [](auto& m) { m["image"] = 3; },
         [](auto& m) { m["image"]["height"] = -1; },
         [](auto& m) { m["image"]["height"] = 1.5; },
-        [](auto& m) { m["basis"]["name"] = "sh"; },
         [](auto& m) { m["basis"]["face_resolution"] = 12; },
         [](auto& m) { m["basis"]["face_resolution"] = 512; },
         [](auto& m) { m["colour"]["channels"] = 2; },

@@ -1,0 +1,62 @@
+// The basis that the lighting of a transport is written in: one noun, two kinds.
+#pragma once
+
+#include "protocol/basis/cubemap.h"
+#include "protocol/basis/spherical_harmonics.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace relume::basis {
+
+// Most bands any basis has: those of spherical harmonics of the largest order.
+inline constexpr std::uint32_t kMaxBands = kMaxShOrder;
+
+// A value; what follows from it alone. cubemap_projection.h goes from texels to coefficients.
+class LightBasis {
+  public:
+    enum class Kind : std::uint8_t {
+        haar,                // haar.h: 6·n² coefficients, a band a level
+        spherical_harmonics  // spherical_harmonics.h: order² coefficients, a band an l
+    };
+
+    // Light comes as a cubemap of resolution n in either kind. Throws std::invalid_argument
+    // unless is_face_resolution(n) and 1 ≤ order ≤ kMaxShOrder.
+    [[nodiscard]] static LightBasis haar(std::uint32_t face_resolution);
+    [[nodiscard]] static LightBasis spherical_harmonics(std::uint32_t order,
+                                                        std::uint32_t face_resolution);
+    // Haar of the smallest cubemap.
+    LightBasis() = default;
+
+    [[nodiscard]] Kind kind() const { return kind_; }
+    [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
+    // Of spherical harmonics; 0 for Haar.
+    [[nodiscard]] std::uint32_t order() const { return order_; }
+
+    [[nodiscard]] std::size_t coefficient_count() const;
+    [[nodiscard]] std::uint32_t band_count() const;
+    // In [0, band_count), not descending with the index for spherical harmonics.
+    [[nodiscard]] std::uint32_t band_from_coefficient(std::size_t coefficient) const;
+    // log₂ of the band's angular frequency, relative to that of band 0: what falls off as a
+    // power of frequency in light and transport falls off exponentially with it.
+    [[nodiscard]] float octave_from_band(std::uint32_t band) const;
+
+    // Coefficients of radiance 1 from everywhere that are not zero, by index.
+    struct Term {
+        std::uint32_t coefficient = 0;
+        float value = 0;
+    };
+    [[nodiscard]] std::vector<Term> constant_light() const;
+
+    friend bool operator==(const LightBasis&, const LightBasis&) = default;
+
+  private:
+    LightBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t order);
+
+    Kind kind_ = Kind::haar;
+    std::uint32_t face_resolution_ = kMinFaceResolution;
+    std::uint32_t order_ = 0;
+};
+
+}  // namespace relume::basis

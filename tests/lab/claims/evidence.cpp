@@ -1,0 +1,92 @@
+#include "tests/lab/claims/evidence.h"
+
+#include "tests/lab/sequences/environment_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace relume::lab {
+
+const Summary& LightRun::of(const std::string& method) const {
+    const auto found =
+        std::find_if(summaries.begin(), summaries.end(),
+                     [&](const Summary& summary) { return summary.method == method; });
+    if (found == summaries.end()) {
+        throw std::invalid_argument(fmt::format("method '{}' did not take part", method));
+    }
+    return *found;
+}
+
+Evidence::Evidence(EvidenceOptions options) : options_(std::move(options)) {}
+
+LabScenes& Evidence::scenes() {
+    if (!scenes_) {
+        scenes_.emplace(options_.cache);
+    }
+    return *scenes_;
+}
+
+LabScene Evidence::scene(const std::string& builtin) {
+    return {.haar = scenes().scene(builtin), .sh_transport = {}};
+}
+
+LabScene Evidence::scene_in_both_bases(const std::string& builtin) {
+    return {.haar = scenes().scene(builtin), .sh_transport = scenes().sh_transport(builtin)};
+}
+
+const std::vector<LightRun>& Evidence::rotations() {
+    if (rotations_.empty()) {
+        std::vector<LightRun> runs;
+        for (const std::string& light : options_.lights) {
+            runs.push_back(run(demo(), light, "slow-fast-slow",
+                               {"nwa-30", "nwa-60", "nwa-100", "nwa-300", "nwa-500", "bi-30",
+                                "pbi-30", "pbi-dealer-30", "pbi-exhaustive-30"}));
+        }
+        rotations_ = std::move(runs);
+    }
+    return rotations_;
+}
+
+LightRun Evidence::run(const LabScene& scene,
+                       const std::string& light,
+                       const std::string& sequence,
+                       const std::vector<std::string>& methods) {
+    Experiment experiment;
+    experiment.scene = scene;
+    experiment.sequence = load_sequence(sequence);
+    experiment.environments = {
+        .environment = load_environment(light, scene.haar->face_resolution()),
+        .blend = nullptr};
+    for (const std::string& method : methods) {
+        experiment.methods.push_back(method_from_text(method));
+    }
+    const std::string what = scene.haar->transport().directory().stem().string() + ", " + light;
+    experiment.go_on = [&](std::uint32_t done) {
+        return options_.go_on(what, done, experiment.sequence.images);
+    };
+    (void)options_.go_on(what, 0, experiment.sequence.images);
+    LightRun run{.light = light, .findings = run_experiment(experiment), .summaries = {}};
+    if (!run.findings.complete) {
+        throw EvidenceInterrupted();
+    }
+    run.summaries = summaries(run.findings.records, experiment.sequence.rests_from());
+    return run;
+}
+
+std::string by_light(const std::vector<LightRun>& runs,
+                     const std::function<double(const LightRun&)>& value) {
+    std::string text;
+    for (const LightRun& run : runs) {
+        text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", run.light, value(run));
+    }
+    return text;
+}
+
+bool under_all_lights(const std::vector<LightRun>& runs,
+                      const std::function<bool(const LightRun&)>& is_true) {
+    return std::all_of(runs.begin(), runs.end(), is_true);
+}
+
+}  // namespace relume::lab

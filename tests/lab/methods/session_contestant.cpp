@@ -1,0 +1,44 @@
+#include "tests/lab/methods/session_contestant.h"
+
+#include "tests/lab/methods/light_radiance.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relume::lab {
+
+SessionContestant::SessionContestant(std::shared_ptr<const engine::Scene> scene,
+                                     wire::Strategy strategy,
+                                     const engine::SelectionBudget& budget,
+                                     std::size_t coefficients)
+    : session_(std::move(scene), strategy), budget_(budget), coefficients_(coefficients) {}
+
+void SessionContestant::set_light(const ImageLight& light) {
+    light::lighting_coefficients(light.radiance, session_.scene().projection(), target_);
+    const std::size_t count = session_.scene().coefficient_count();
+    for (std::size_t first = 0; first < target_.size(); first += count) {
+        std::fill(target_.begin() + static_cast<std::ptrdiff_t>(first + coefficients_),
+                  target_.begin() + static_cast<std::ptrdiff_t>(first + count), 0.0F);
+    }
+    session_.set_lighting(target_);
+}
+
+Step SessionContestant::step() {
+    const engine::StepReport report = session_.advance_incrementally(budget_);
+    return {.applied = report.applied,
+            .bands_reset = report.bands_reset,
+            .bytes = report.bytes_touched,
+            .stated_error = report.stated_error};
+}
+
+LightingView SessionContestant::lighting() const {
+    return {.target = target_,
+            .approximation = session_.approximation(),
+            .bands = session_.scene().bands()};
+}
+
+void SessionContestant::write_radiance(light::LightCubemap& out) const {
+    radiance_from_coefficients(session_.approximation(), session_.scene().projection(), out);
+}
+
+}  // namespace relume::lab

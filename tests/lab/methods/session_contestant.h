@@ -1,0 +1,35 @@
+// A method that is a session of the engine, whatever the basis of its transport.
+#pragma once
+
+#include "server/engine/session.h"
+#include "tests/lab/methods/contestant.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace relume::lab {
+
+class SessionContestant final : public Contestant {
+  public:
+    // Of the light, the coefficients from index `coefficients` on are taken for zero: low bands
+    // alone, where indices follow bands.
+    SessionContestant(std::shared_ptr<const engine::Scene> scene,
+                      wire::Strategy strategy,
+                      const engine::SelectionBudget& budget,
+                      std::size_t coefficients);
+
+    void set_light(const ImageLight& light) override;
+    Step step() override;
+    void write_image(std::span<float> rgb) const override { session_.write_image(rgb); }
+    [[nodiscard]] LightingView lighting() const override;
+    void write_radiance(light::LightCubemap& out) const override;
+
+  private:
+    engine::Session session_;
+    engine::SelectionBudget budget_;
+    std::size_t coefficients_;
+    std::vector<float> target_;
+};
+
+}  // namespace relume::lab

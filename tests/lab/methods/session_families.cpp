@@ -1,0 +1,45 @@
+// The methods of the engine's own sessions: what the server runs.
+#include "protocol/wire/session_names.h"
+#include "tests/lab/methods/families.h"
+#include "tests/lab/methods/session_contestant.h"
+#include "tests/lab/methods/wavelet_terms.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace relume::lab {
+namespace {
+
+MethodFamily session_family(wire::Method method, std::string summary) {
+    const std::string name(wire::name_from(method));
+    return {.name = name,
+            .form = std::string(kWaveletTermsForm),
+            .summary = std::move(summary),
+            .parse = [name, method](std::string_view rest) {
+                const WaveletTerms terms = wavelet_terms_from_text(rest);
+                return Method{
+                    .label = name + "-" + terms.text,
+                    .enter = [method, terms](const LabScene& scene) {
+                        return std::make_unique<SessionContestant>(
+                            scene.haar,
+                            wire::Strategy{.method = method, .priority = terms.priority},
+                            terms.budget, scene.haar->coefficient_count());
+                    }};
+            }};
+}
+
+}  // namespace
+
+void add_session_families(std::vector<MethodFamily>& families) {
+    families.push_back(session_family(wire::Method::nwa,
+                                      "the best terms of the light, anew each image [Ng03]"));
+    families.push_back(
+        session_family(wire::Method::bi, "the best terms of the difference [Overbeck06 §3]"));
+    families.push_back(session_family(
+        wire::Method::pbi, "bi, bands begin anew where that is nearer [Overbeck06 §5]"));
+    families.push_back(session_family(wire::Method::guarded,
+                                      "bi, bands begin anew by the predicted image error"));
+}
+
+}  // namespace relume::lab
