@@ -67,6 +67,19 @@ Walk walk(OpenPlane& plane, const Path& path, CubemapOf cubemap_of) {
     return result;
 }
 
+// Relative. A cone of radius R (the edge of a disc smaller than a sample, half a texel) that
+// moves by d takes the part 3d/πR of its light along, across two texels at most, whose cosθ
+// differ by tanθ·4/n.
+double largest_step_on(const Path& path, std::uint32_t n) {
+    double tangent = 0;
+    for (int step = -kReach; step <= kReach; ++step) {
+        const double cosine = double{light_at(path, step, n).direction.normalized().y};
+        tangent = std::max(tangent, std::sqrt(1 - cosine * cosine) / cosine);
+    }
+    const double step_of_radius = 2 / double{kSteps};
+    return 3 / std::numbers::pi * step_of_radius * tangent * 4 / static_cast<double>(n);
+}
+
 // Error of NWA-10 with the light on the border (within half a texel), over that elsewhere on
 // the path.
 double border_cost(const OpenPlane& plane, const Path& path) {
@@ -94,14 +107,11 @@ double border_cost(const OpenPlane& plane, const Path& path) {
 
 Outcome provoke(Workbench& workbench) {
     OpenPlane plane(workbench);
-    const double n = plane.face_resolution();
     Outcome outcome;
     for (const Path& path : kPaths) {
         const Walk whole = walk(plane, path, covered);
         const Walk pointwise = walk(plane, path, point_sampled);
-        const double tangent = 1.7;  // of the lowest place on the paths, at most
-        const double largest_step =
-            6 / std::numbers::pi / kSteps * 2 / 2 * tangent * (2 * 2 / n);
+        const double largest_step = largest_step_on(path, plane.face_resolution());
         const std::string name(path.name);
         outcome.findings.push_back({name + ", NWA-10: error on the border, of that beside it",
                                     Sense::at_least, 1, border_cost(plane, path),

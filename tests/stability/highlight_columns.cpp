@@ -2,6 +2,7 @@
 // what the others see.
 #include "precompute/bake/bake.h"
 #include "precompute/scene/builtin/mesh_builder.h"
+#include "protocol/basis/cubemap.h"
 #include "protocol/basis/haar.h"
 #include "protocol/transport/quantise.h"
 #include "tests/laws/bake_estimate.h"
@@ -97,7 +98,7 @@ test::LinearImage by_column_range(const scene::Scene& scene,
         for (const float value : wavelet) {
             lit.emplace_back(value);
         }
-        const test::LinearImage column = relit_from_rows(scene, parameters, lit);
+        const test::LinearImage column = test::relit_from_rows(scene, parameters, lit);
         double range = 0;
         for (const auto& pixel : column.pixels) {
             range = std::max(range, std::abs(pixel.x));
@@ -160,7 +161,7 @@ Outcome provoke(Workbench& workbench) {
     const auto texel = basis::texel_from_direction(n, Imath::V3f(0.15F, 1, 0.4F));
     light[basis::index_from_texel(n, texel)] = Imath::V3f(1000);
 
-    const test::LinearImage exact = relit_from_rows(scene, parameters, light);
+    const test::LinearImage exact = test::relit_from_rows(scene, parameters, light);
     const test::LinearImage stored = test::dense_product(*transport, light);
     const test::LinearImage ng03 = by_column_range(scene, parameters, light);
     const Matte matte(exact);

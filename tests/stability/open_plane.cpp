@@ -34,7 +34,8 @@ double OpenPlane::tolerance(const Imath::V3f& direction) const {
     constexpr double kStorage = 0.01;
     const double cosine = double{direction.normalized().y};
     const double tangent = std::sqrt(1 - cosine * cosine) / cosine;
-    return tangent * std::numbers::sqrt2 / double{scene_->face_resolution()} + kStorage;
+    return tangent * std::numbers::sqrt2 / static_cast<double>(scene_->face_resolution()) +
+           kStorage;
 }
 
 }  // namespace relume::stability

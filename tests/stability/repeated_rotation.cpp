@@ -47,7 +47,7 @@ double brightest(const light::LightCubemap& cubemap) {
 std::size_t differing_values(std::span<const float> a, std::span<const float> b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        count += a[i] == b[i] ? 0 : 1;
+        count += a[i] == b[i] ? 0U : 1U;
     }
     return count;
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 namespace relume::stability {
 namespace {
 
@@ -11,8 +13,9 @@ class Stability : public testing::TestWithParam<Failure> {};
 
 TEST_P(Stability, KeepsItsBounds) {
     Workbench workbench({.cache = RELUME_STABILITY_CACHE});
-    const Outcome outcome = GetParam().provoke(workbench);
-    for (const Finding& finding : outcome.findings) {
+    const Result result{GetParam(), GetParam().provoke(workbench)};
+    std::cout << text_from(result);
+    for (const Finding& finding : result.outcome.findings) {
         EXPECT_TRUE(finding.holds()) << line_from(finding) << "\n  " << finding.reason;
     }
 }
@@ -20,7 +23,7 @@ TEST_P(Stability, KeepsItsBounds) {
 INSTANTIATE_TEST_SUITE_P(Failures,
                          Stability,
                          testing::ValuesIn(failures().begin(), failures().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& failure) { return std::string(failure.param.name); });
 
 }  // namespace
 }  // namespace relume::stability
