@@ -1,21 +1,12 @@
 #include "server/engine/session.h"
 
-#include "protocol/transport/receiver_basis.h"
+#include "server/engine/relit_image.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <stdexcept>
+#include <utility>
 
 namespace relume::engine {
 namespace {
-
-using transport::kBlockSize;
-using transport::kColours;
-using transport::kTileSide;
 
 // Rounding may leave at most this much of the image's norm before the drifted band is made
 // anew.
@@ -195,42 +186,7 @@ void Session::advance_full_product(const wire::Budget& budget, StepReport& repor
 }
 
 void Session::write_image(std::span<float> rgb) const {
-    const transport::TileGrid& image = scene_->image();
-    const std::size_t expected = std::size_t{kColours} * image.width * image.height;
-    if (rgb.size() != expected) {
-        throw std::invalid_argument(
-            fmt::format("image buffer has {} values, expected {}", rgb.size(), expected));
-    }
-    tbb::parallel_for(std::uint32_t{0}, image.block_count(),
-                      [&](std::uint32_t block) { write_block(block, rgb); });
-}
-
-void Session::write_block(std::uint32_t block, std::span<float> rgb) const {
-    constexpr std::size_t kSumsPerBlock = std::size_t{kColours} * kBlockSize;
-    const std::size_t first = block * kSumsPerBlock;
-    std::array<float, kSumsPerBlock> values;
-    std::copy_n(images_.total().begin() + static_cast<std::ptrdiff_t>(first), values.size(),
-                values.begin());
-    for (std::size_t c = 0; c < kColours; ++c) {
-        transport::block_receivers_from_coefficients(
-            std::span<float, kBlockSize>(&values[c * kBlockSize], kBlockSize));
-    }
-    const std::span<const float> tint =
-        scene_->transport().tint().subspan(first, kSumsPerBlock);
-    const transport::TileGrid& image = scene_->image();
-    const std::uint32_t left = block % image.tiles_x() * kTileSide;
-    const std::uint32_t top = block / image.tiles_x() * kTileSide;
-    const std::uint32_t columns = std::min(kTileSide, image.width - left);
-    const std::uint32_t rows = std::min(kTileSide, image.height - top);
-    for (std::uint32_t y = 0; y < rows; ++y) {
-        float* out = &rgb[kColours * (std::size_t{top + y} * image.width + left)];
-        for (std::uint32_t x = 0; x < columns; ++x) {
-            for (std::size_t c = 0; c < kColours; ++c) {
-                const std::size_t i = c * kBlockSize + y * kTileSide + x;
-                *out++ = values[i] * tint[i];
-            }
-        }
-    }
+    write_relit_image(*scene_, images_.total(), rgb);
 }
 
 }  // namespace relume::engine

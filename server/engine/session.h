@@ -70,7 +70,6 @@ class Session {
     void write_image(std::span<float> rgb) const;
 
   private:
-    void write_block(std::uint32_t block, std::span<float> rgb) const;
     // Chooses; the approximation and the image stay as they are.
     [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);
     // Brings image, approximation and estimates to where the plan leads.

@@ -2,8 +2,8 @@
 #include "server/engine/band_images.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 #include <fmt/format.h>
 
@@ -39,22 +39,22 @@ void measure(Workbench& workbench, Results& results) {
     const std::size_t rounds = workbench.quick() ? 3 : 5 * images.size();
     ReadBandwidth& reading = workbench.read_bandwidth();
     for (const int threads : Workbench::thread_counts()) {
-        with_threads(threads, [&] {
+        test::with_threads(threads, [&] {
             engine::BandImages relit(*scene);
-            const TimedVariant variants[] = {
+            const test::TimedVariant variants[] = {
                 [&](std::size_t round) { relit.update(0, images[round % images.size()]); },
                 [&](std::size_t round) {
                     reading.read(bytes_of(*scene, images[round % images.size()]));
                 },
             };
-            const auto seconds = seconds_in_turn(variants, rounds);
+            const auto seconds = test::seconds_in_turn(variants, rounds);
             // Both touched the same number of bytes.
             results.set(fmt::format("bandwidth_ratio_{}t", threads),
-                        median_ratio(seconds[1], seconds[0]));
+                        test::median_ratio(seconds[1], seconds[0]));
             const auto bytes = static_cast<double>(bytes_of(*scene, images.front()));
             results.measured("bandwidth")[fmt::format("{}t", threads)] = {
-                {"columns_bytes_per_second", bytes / median(seconds[0])},
-                {"read_bytes_per_second", bytes / median(seconds[1])},
+                {"columns_bytes_per_second", bytes / test::median(seconds[0])},
+                {"read_bytes_per_second", bytes / test::median(seconds[1])},
                 {"bytes_per_image", bytes}};
         });
     }

@@ -1,8 +1,8 @@
 // Dragging without approximation: every image is the exact one.
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 namespace relume::bench {
 namespace {
@@ -11,17 +11,17 @@ void measure(Workbench& workbench, Results& results) {
     // Time enough for all of it, whatever the engine makes of that.
     const wire::Budget budget{.milliseconds = 1000, .coefficients = {}, .target_error = 0};
     const std::size_t images = workbench.quick() ? 3 : 100;
-    with_threads(Workbench::thread_counts().back(), [&] {
+    test::with_threads(Workbench::thread_counts().back(), [&] {
         ImagePipeline pipeline(workbench.scene());
         std::size_t steps = 0;
         std::size_t bytes = 0;
         std::uint64_t bytes_touched = 0;
         double seconds = 0;
-        Stopwatch stopwatch;
+        test::Stopwatch stopwatch;
         // The first image warms up.
         for (std::size_t image = 0; image <= images; ++image) {
             if (image == 1) {
-                stopwatch = Stopwatch();
+                stopwatch = test::Stopwatch();
                 steps = 0;
                 bytes_touched = 0;
             }

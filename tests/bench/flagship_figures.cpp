@@ -2,8 +2,8 @@
 // image's time.
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +24,12 @@ void measure(Workbench& workbench, Results& results) {
     const std::size_t images = workbench.quick() ? 5 : 200;
     const auto scene = workbench.flagship_scene();
     const wire::Budget budget;
-    with_threads(Workbench::thread_counts().back(), [&] {
+    test::with_threads(Workbench::thread_counts().back(), [&] {
         ImagePipeline pipeline(scene);
         std::vector<double> latencies_ms;
-        const Stopwatch drag;
+        const test::Stopwatch drag;
         for (std::size_t image = 0; image < images; ++image) {
-            const Stopwatch stopwatch;
+            const test::Stopwatch stopwatch;
             pipeline.turn_light(image);
             pipeline.advance(budget);
             pipeline.begin_encoding();
@@ -42,13 +42,13 @@ void measure(Workbench& workbench, Results& results) {
         const auto rank =
             static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(images)));
         results.set(kKeys[1], latencies_ms[rank - 1]);
-        const Stopwatch resting;
+        const test::Stopwatch resting;
         while (!pipeline.exact()) {
             pipeline.advance(budget);
         }
         results.set(kKeys[2], 1e3 * resting.seconds());
         results.measured("flagship") = {{"transport_bytes", scene->transport().total_bytes()},
-                                        {"ms_p50", median(latencies_ms)},
+                                        {"ms_p50", test::median(latencies_ms)},
                                         {"images", images}};
     });
 }

@@ -2,8 +2,8 @@
 #include "server/engine/full_product.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 namespace relume::bench {
 namespace {
@@ -14,9 +14,9 @@ void measure(Workbench& workbench, Results& results) {
     const std::uint64_t bytes = scene->transport().total_bytes();
     const std::vector<float> lighting = LightDrag(scene->face_resolution()).lighting(0);
     ReadBandwidth& reading = workbench.read_bandwidth();
-    with_threads(threads, [&] {
+    test::with_threads(threads, [&] {
         engine::FullProduct product(*scene);
-        const TimedVariant variants[] = {
+        const test::TimedVariant variants[] = {
             [&](std::size_t /*round*/) {
                 product.start(lighting);
                 while (product.running()) {
@@ -25,11 +25,11 @@ void measure(Workbench& workbench, Results& results) {
             },
             [&](std::size_t /*round*/) { reading.read(bytes); },
         };
-        const auto seconds = seconds_in_turn(variants, workbench.quick() ? 3 : 25);
-        results.set("full_product_ratio", median_ratio(seconds[0], seconds[1]));
+        const auto seconds = test::seconds_in_turn(variants, workbench.quick() ? 3 : 25);
+        results.set("full_product_ratio", test::median_ratio(seconds[0], seconds[1]));
         results.measured("full_product") = {{"threads", threads},
-                                            {"product_ms", 1e3 * median(seconds[0])},
-                                            {"read_ms", 1e3 * median(seconds[1])},
+                                            {"product_ms", 1e3 * test::median(seconds[0])},
+                                            {"read_ms", 1e3 * test::median(seconds[1])},
                                             {"bytes", bytes}};
     });
 }

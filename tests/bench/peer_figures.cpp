@@ -5,8 +5,8 @@
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
 #include "tests/bench/ng03_product.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 #include <fmt/format.h>
 
@@ -101,17 +101,17 @@ nlohmann::json bytes_by_encoding(const engine::Scene& scene,
 // Eigen's fastest layout here, tried before anything counts.
 EigenLayout fastest_layout(const Peers& peers, std::span<const ChangesOfImage> images) {
     std::vector<std::unique_ptr<EigenProduct>> products;
-    std::vector<TimedVariant> variants;
+    std::vector<test::TimedVariant> variants;
     for (const EigenLayout layout : kEigenLayouts) {
         products.push_back(std::make_unique<EigenProduct>(peers.eigen, layout));
         variants.emplace_back([product = products.back().get(), images](std::size_t round) {
             product->add(images[round % images.size()]);
         });
     }
-    const auto seconds = seconds_in_turn(variants, images.size());
+    const auto seconds = test::seconds_in_turn(variants, images.size());
     std::size_t best = 0;
     for (std::size_t i = 1; i < seconds.size(); ++i) {
-        best = median(seconds[i]) < median(seconds[best]) ? i : best;
+        best = test::median(seconds[i]) < test::median(seconds[best]) ? i : best;
     }
     return kEigenLayouts[best];
 }
@@ -130,23 +130,23 @@ Speedups time_peers(const engine::Scene& scene,
     engine::BandImages ours(scene);
     EigenProduct eigen(peers.eigen, layout);
     Ng03Product ng03(peers.ng03);
-    const TimedVariant variants[] = {
+    const test::TimedVariant variants[] = {
         [&](std::size_t round) { ours.update(0, images[round % images.size()]); },
         [&](std::size_t round) { eigen.add(images[round % images.size()]); },
         [&](std::size_t round) { ng03.add(images[round % images.size()]); },
     };
-    const auto seconds = seconds_in_turn(variants, rounds);
+    const auto seconds = test::seconds_in_turn(variants, rounds);
     std::uint64_t bytes = 0;
     for (const ChangesOfImage& image : images) {
         bytes += bytes_of(scene, image);
     }
-    measured["ours_ms"] = 1e3 * median(seconds[0]);
-    measured["eigen_ms"] = 1e3 * median(seconds[1]);
-    measured["ng03_ms"] = 1e3 * median(seconds[2]);
+    measured["ours_ms"] = 1e3 * test::median(seconds[0]);
+    measured["eigen_ms"] = 1e3 * test::median(seconds[1]);
+    measured["ng03_ms"] = 1e3 * test::median(seconds[2]);
     measured["eigen_layout"] = name_from(layout);
     measured["our_bytes_per_image"] = bytes / images.size();
-    const Speedups speedups{.eigen = median_ratio(seconds[1], seconds[0]),
-                            .ng03 = median_ratio(seconds[2], seconds[0])};
+    const Speedups speedups{.eigen = test::median_ratio(seconds[1], seconds[0]),
+                            .ng03 = test::median_ratio(seconds[2], seconds[0])};
     measured["speedup_over_eigen"] = speedups.eigen;
     measured["speedup_over_ng03"] = speedups.ng03;
     return speedups;
@@ -168,7 +168,7 @@ void measure(Workbench& workbench, Results& results) {
         const std::size_t rounds = workbench.quick() ? 3 : 3 * kImages;
         Speedups least;
         for (const int threads : Workbench::thread_counts()) {
-            with_threads(threads, [&] {
+            test::with_threads(threads, [&] {
                 const Speedups speedups = time_peers(*scene, peers, images, rounds,
                                                      measured[fmt::format("{}t", threads)]);
                 least.eigen = std::min(least.eigen, speedups.eigen);

@@ -1,7 +1,7 @@
 #include "tests/bench/read_bandwidth.h"
 
 #include "protocol/transport/cpu_clones.h"
-#include "tests/bench/timing.h"
+#include "tests/support/timing.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -60,9 +60,9 @@ double ReadBandwidth::bytes_per_second(int threads) {
     const std::size_t bytes =
         std::min(buffer_.size() * kWord, std::size_t{256} << 20U) / kWord * kWord;
     double seconds = 0;
-    with_threads(threads, [&] {
-        const TimedVariant pass = [&](std::size_t /*round*/) { read(bytes); };
-        seconds = median(seconds_in_turn(std::span(&pass, 1), kPasses).front());
+    test::with_threads(threads, [&] {
+        const test::TimedVariant pass = [&](std::size_t /*round*/) { read(bytes); };
+        seconds = test::median(test::seconds_in_turn(std::span(&pass, 1), kPasses).front());
     });
     return static_cast<double>(bytes) / seconds;
 }

@@ -1,7 +1,7 @@
 #include "tests/bench/running_server.h"
 
 #include "tests/bench/programs.h"
-#include "tests/bench/timing.h"
+#include "tests/support/timing.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -88,7 +88,7 @@ std::vector<std::string> RunningServer::load_arguments(const Load& load) const {
 
 nlohmann::json RunningServer::run_load(const Load& load) const {
     return nlohmann::json::parse(
-        run_to_end(client_program(), load_arguments(load), folder_.path(), "load"));
+        test::run_to_end(client_program(), load_arguments(load), folder_.path(), "load"));
 }
 
 std::unique_ptr<test::Program> RunningServer::start_load(const Load& load) const {
@@ -110,7 +110,7 @@ double RunningServer::cpu_seconds() const {
 
 void RunningServer::wait_until_quiet(double timeout_seconds) const {
     constexpr double kQuiet = 0.01;
-    const Stopwatch waiting;
+    const test::Stopwatch waiting;
     double before = cpu_seconds();
     while (true) {
         std::this_thread::sleep_for(std::chrono::seconds(1));

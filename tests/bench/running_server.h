@@ -1,7 +1,7 @@
 // relume-server as it is delivered, serving one scene on the loopback.
 #pragma once
 
-#include "tests/load/program.h"
+#include "tests/support/program.h"
 #include "tests/support/scratch_directory.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,8 +1,6 @@
 #include "tests/bench/workbench.h"
 
-#include "protocol/transport/error.h"
 #include "tests/bench/dense_transport.h"
-#include "tests/bench/programs.h"
 
 #include <fmt/format.h>
 
@@ -20,39 +18,16 @@ std::shared_ptr<const engine::Scene> open_scene(const fs::path& directory) {
     return std::make_shared<const engine::Scene>(transport::Transport::open(directory));
 }
 
-// Null when it is not there, or of a format or version that is not today's.
-std::shared_ptr<const engine::Scene> open_if_whole(const fs::path& directory) {
-    try {
-        return open_scene(directory);
-    } catch (const transport::TransportError&) {
-        return nullptr;
-    }
-}
-
 }  // namespace
 
-Workbench::Workbench(Options options) : options_(std::move(options)) {
-    fs::create_directories(options_.cache);
-}
-
-std::shared_ptr<const engine::Scene> Workbench::baked(
-    const std::string& name, const std::vector<std::string>& arguments) {
-    const fs::path directory = options_.cache / (name + ".relume");
-    if (auto scene = open_if_whole(directory)) {
-        return scene;
-    }
-    fmt::print(stderr, "baking {} (once)\n", directory.string());
-    std::vector<std::string> words = arguments;
-    words.insert(words.end(), {"-o", directory.string()});
-    run_to_end(bake_program(), words, options_.cache, name);
-    return open_scene(directory);
-}
+Workbench::Workbench(Options options) : options_(std::move(options)), scenes_(options_.cache) {}
 
 std::shared_ptr<const engine::Scene> Workbench::scene() {
     if (!scene_) {
-        scene_ = options_.scene.empty()
-                     ? baked("mesh100k-512-64", {"--builtin", "mesh100k", "--bounces", "0"})
-                     : open_scene(options_.scene);
+        scene_ =
+            options_.scene.empty()
+                ? scenes_.baked("mesh100k-512-64", {"--builtin", "mesh100k", "--bounces", "0"})
+                : open_scene(options_.scene);
     }
     return scene_;
 }
@@ -63,7 +38,7 @@ std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
         const fs::path directory =
             options_.cache /
             fmt::format("dense-{}x{}-{}.relume", size.width, size.height, size.face_resolution);
-        dense_scene_ = open_if_whole(directory);
+        dense_scene_ = test::open_if_whole(directory);
         if (!dense_scene_) {
             fmt::print(stderr, "writing {} (once)\n", directory.string());
             write_dense_transport(directory, size);
@@ -74,13 +49,14 @@ std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
 }
 
 std::shared_ptr<const engine::Scene> Workbench::drift_scene() {
-    return baked("drift-64-8", {"--builtin", "table", "--size", "64x48", "--light-resolution",
-                                "8", "--bounces", "1", "--samples", "16"});
+    return scenes_.baked("drift-64-8",
+                         {"--builtin", "table", "--size", "64x48", "--light-resolution", "8",
+                          "--bounces", "1", "--samples", "16"});
 }
 
 std::shared_ptr<const engine::Scene> Workbench::flagship_scene() {
-    return baked("flagship-1920-64",
-                 {"--builtin", "table", "--size", "1920x1080", "--bounces", "1"});
+    return scenes_.baked("flagship-1920-64",
+                         {"--builtin", "table", "--size", "1920x1080", "--bounces", "1"});
 }
 
 ReadBandwidth& Workbench::read_bandwidth() {

@@ -3,6 +3,7 @@
 
 #include "server/engine/scene.h"
 #include "tests/bench/read_bandwidth.h"
+#include "tests/support/scene_cache.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -45,10 +46,8 @@ class Workbench {
     [[nodiscard]] static std::vector<int> thread_counts();
 
   private:
-    std::shared_ptr<const engine::Scene> baked(const std::string& name,
-                                               const std::vector<std::string>& arguments);
-
     Options options_;
+    test::SceneCache scenes_;
     std::shared_ptr<const engine::Scene> scene_;
     std::shared_ptr<const engine::Scene> dense_scene_;
     std::unique_ptr<ReadBandwidth> read_bandwidth_;

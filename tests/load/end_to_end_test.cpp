@@ -1,5 +1,5 @@
 // The programs as they are delivered: a scene is baked, served, and looked at by the client.
-#include "tests/load/program.h"
+#include "tests/support/program.h"
 #include "tests/support/scratch_directory.h"
 
 #include <OpenImageIO/imageio.h>

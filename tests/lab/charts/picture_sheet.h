@@ -1,0 +1,22 @@
+// Pictures side by side, with their errors beneath.
+#pragma once
+
+#include "tests/lab/measures/experiment.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace relume::lab {
+
+// Writes STEM.png: one column for the reference and each method, tone-mapped as the server's
+// images are with an exposure that gives the reference a mean luminance of 0.18; beneath, the
+// absolute error of its display values, four times as bright. `pictures` are of one image, the
+// reference first, `width` pixels wide. Throws as draw_chart does.
+void draw_picture_sheet(const std::filesystem::path& stem,
+                        const std::string& title,
+                        const std::vector<Picture>& pictures,
+                        std::uint32_t width);
+
+}  // namespace relume::lab

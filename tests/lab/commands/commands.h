@@ -1,0 +1,21 @@
+// The subcommands of relume-lab, a file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace relume::lab {
+
+// What runs, and how the program then ends: its exit code.
+struct Command {
+    CLI::App* app;
+    std::function<int()> run;
+};
+
+// Each adds its subcommand with its options to the program.
+[[nodiscard]] Command add_run_command(CLI::App& program);
+[[nodiscard]] Command add_pareto_command(CLI::App& program);
+[[nodiscard]] Command add_terms_command(CLI::App& program);
+
+}  // namespace relume::lab

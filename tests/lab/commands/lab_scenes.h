@@ -1,0 +1,27 @@
+// The built-in scenes as the lab bakes them.
+#pragma once
+
+#include "tests/support/scene_cache.h"
+
+#include <memory>
+#include <string>
+
+namespace relume::lab {
+
+// Beside the program.
+[[nodiscard]] std::string default_scene_cache();
+
+// Built-in scenes of relume-bake, baked once into a cache: one bounce, 16 samples, 6×32×32.
+class LabScenes {
+  public:
+    explicit LabScenes(const std::string& cache) : scenes_(cache) {}
+
+    // Square. Throws as test::SceneCache does.
+    [[nodiscard]] std::shared_ptr<const engine::Scene> scene(const std::string& name,
+                                                             std::uint32_t side = 128);
+
+  private:
+    test::SceneCache scenes_;
+};
+
+}  // namespace relume::lab

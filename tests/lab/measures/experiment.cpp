@@ -1,0 +1,180 @@
+#include "tests/lab/measures/experiment.h"
+
+#include "server/engine/session.h"
+#include "tests/lab/measures/lighting_error.h"
+#include "tests/lab/measures/perceptual_difference.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace relume::lab {
+namespace {
+
+using transport::kColours;
+
+// The exact image of a light, from a session that is given time until it is at rest.
+class Reference {
+  public:
+    explicit Reference(const std::shared_ptr<const engine::Scene>& scene)
+        : session_(scene, {}) {}
+
+    void write_image(std::span<const float> lighting, std::span<float> rgb) {
+        session_.set_lighting(lighting);
+        while (!session_.exact()) {
+            session_.advance(kAllAtOnce);
+        }
+        session_.write_image(rgb);
+    }
+
+  private:
+    static constexpr wire::Budget kAllAtOnce{
+        .milliseconds = 1e6, .coefficients = std::nullopt, .target_error = 0};
+    engine::Session session_;
+};
+
+double square(double x) {
+    return x * x;
+}
+
+// What is known of one image before any method has seen it.
+struct Truth {
+    ImageLight light;
+    std::span<const float> image;
+    std::uint32_t width;
+};
+
+// A method at work, and what its measures remember of the image before.
+class Entrant {
+  public:
+    Entrant(const Method& method, const LabScene& scene, std::size_t values)
+        : label_(method.label),
+          contestant_(method.enter(scene)),
+          lighting_error_(scene.haar->face_resolution()),
+          image_(values),
+          previous_error_(values) {
+        const LightingView lighting = contestant_->lighting();
+        previous_target_.resize(lighting.approximation.size());
+        previous_approximation_.assign(lighting.approximation.begin(),
+                                       lighting.approximation.end());
+        covered_.resize(lighting.bands.size());
+    }
+
+    Record measure(const Truth& truth, bool perceptual) {
+        contestant_->set_light(truth.light);
+        const auto start = std::chrono::steady_clock::now();
+        const Step step = contestant_->step();
+        const auto end = std::chrono::steady_clock::now();
+        contestant_->write_image(image_);
+        contestant_->write_radiance(shown_);
+        Record record{
+            .method = label_,
+            .image = 0,
+            .error = image_error(image_, truth.image, truth.width),
+            .lighting_l1 = lighting_error_.relative_l1(shown_, truth.light.radiance),
+            .flicker = error_change(image_, truth.image, previous_error_),
+            .visible = std::nullopt,
+            .stated_error = step.stated_error,
+            .applied = step.applied,
+            .bands_reset = step.bands_reset,
+            .covered = 0,
+            .bytes = step.bytes,
+            .microseconds = std::chrono::duration<double, std::micro>(end - start).count(),
+            .bands = {}};
+        if (perceptual) {
+            record.visible = visible_part(image_, truth.image, truth.width);
+        }
+        record_bands(step.bands_reset, record);
+        return record;
+    }
+
+    [[nodiscard]] const std::string& label() const { return label_; }
+    [[nodiscard]] const std::vector<float>& image() const { return image_; }
+
+  private:
+    void record_bands(std::uint32_t bands_reset, Record& record) {
+        const LightingView lighting = contestant_->lighting();
+        const std::size_t count = lighting.bands.size();
+        for (std::size_t j = 0; j < count; ++j) {
+            const std::uint32_t b = lighting.bands[j];
+            record.bands.resize(std::max<std::size_t>(record.bands.size(), b + 1));
+            BandRecord& band = record.bands[b];
+            const bool reset = ((bands_reset >> b) & 1U) != 0;
+            bool updated = false;
+            for (std::size_t c = 0; c < kColours; ++c) {
+                const std::size_t i = c * count + j;
+                const float target = lighting.target[i];
+                const float shown = lighting.approximation[i];
+                updated = updated || shown != (reset ? 0 : previous_approximation_[i]);
+                band.residual_energy += square(double{target} - double{shown});
+                band.change_energy += square(double{target} - double{previous_target_[i]});
+            }
+            band.updated += updated ? 1 : 0;
+            covered_[j] = covered_[j] || updated;
+        }
+        record.covered =
+            static_cast<std::uint32_t>(std::count(covered_.begin(), covered_.end(), true));
+        std::copy(lighting.target.begin(), lighting.target.end(), previous_target_.begin());
+        std::copy(lighting.approximation.begin(), lighting.approximation.end(),
+                  previous_approximation_.begin());
+    }
+
+    std::string label_;
+    std::unique_ptr<Contestant> contestant_;
+    LightingError lighting_error_;
+    std::vector<float> image_;
+    std::vector<float> previous_error_;
+    light::LightCubemap shown_;
+    std::vector<float> previous_target_;
+    std::vector<float> previous_approximation_;
+    std::vector<bool> covered_;
+};
+
+}  // namespace
+
+Findings run_experiment(const Experiment& experiment) {
+    const engine::Scene& scene = *experiment.scene.haar;
+    const std::size_t values =
+        kColours * std::size_t{scene.image().width} * scene.image().height;
+    std::vector<float> reference_image(values);
+    std::vector<float> lighting;
+    light::LightCubemap radiance(scene.face_resolution());
+    Reference reference(experiment.scene.haar);
+    std::vector<Entrant> entrants;
+    for (const Method& method : experiment.methods) {
+        entrants.emplace_back(method, experiment.scene, values);
+    }
+    Findings findings;
+    for (std::uint32_t i = 0; i < experiment.sequence.images; ++i) {
+        light::evaluate(rig_of_image(experiment.sequence, experiment.environments, i),
+                        scene.face_resolution(), radiance);
+        light::lighting_coefficients(radiance, lighting);
+        reference.write_image(lighting, reference_image);
+        const Truth truth{.light = {.radiance = radiance, .haar = lighting},
+                          .image = reference_image,
+                          .width = scene.image().width};
+        const bool keep = std::find(experiment.pictures.begin(), experiment.pictures.end(),
+                                    i) != experiment.pictures.end();
+        if (keep) {
+            findings.pictures.push_back({.method = "", .image = i, .rgb = reference_image});
+        }
+        const bool perceptual =
+            experiment.visible_every != 0 && (keep || i % experiment.visible_every == 0);
+        for (Entrant& entrant : entrants) {
+            findings.records.push_back(entrant.measure(truth, perceptual));
+            findings.records.back().image = i;
+            if (keep) {
+                findings.pictures.push_back(
+                    {.method = entrant.label(), .image = i, .rgb = entrant.image()});
+            }
+        }
+        findings.images_done = i + 1;
+        if (!experiment.go_on(findings.images_done)) {
+            break;
+        }
+    }
+    findings.complete = findings.images_done == experiment.sequence.images;
+    return findings;
+}
+
+}  // namespace relume::lab
