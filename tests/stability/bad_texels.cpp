@@ -117,7 +117,7 @@ bool is_refused(const light::MapImage& image) {
 }
 
 Outcome provoke(Workbench& workbench) {
-    const auto scene = workbench.baked("table");
+    const auto scene = workbench.baked("table", {.face_resolution = 16});
     const std::uint32_t n = scene->face_resolution();
     const RealMaps real = import_real_maps();
     workbench.progress("bad_texels", 0.7);

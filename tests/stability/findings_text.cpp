@@ -21,13 +21,22 @@ bool Result::holds() const {
                        [](const Finding& finding) { return finding.holds(); });
 }
 
+std::string bound_text(const Finding& finding) {
+    return finding.sense == Sense::reported
+               ? "none"
+               : fmt::format("{} {:.3g}", name_from(finding.sense), finding.bound);
+}
+
+std::string verdict_text(const Finding& finding) {
+    if (!finding.holds()) {
+        return "broken";
+    }
+    return finding.sense == Sense::reported ? "reported" : "holds";
+}
+
 std::string line_from(const Finding& finding) {
-    const std::string bound =
-        finding.sense == Sense::reported
-            ? std::string("reported")
-            : fmt::format("{} {:.3g}", name_from(finding.sense), finding.bound);
-    return fmt::format("{}  {:>10.3g}  {:<19}  {}", finding.holds() ? "ok    " : "FAILED",
-                       finding.measured, bound, finding.measure);
+    return fmt::format("{:<8}  {:>10.3g}  {:<18}  {}", verdict_text(finding), finding.measured,
+                       bound_text(finding), finding.measure);
 }
 
 std::string text_from(const Result& result) {

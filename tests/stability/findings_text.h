@@ -17,7 +17,11 @@ struct Result {
     [[nodiscard]] bool holds() const;
 };
 
-// "ok    0.00012 <= 0.0001  measure".
+// "at most 0.0001"; "none" where none is claimed.
+[[nodiscard]] std::string bound_text(const Finding& finding);
+// "holds", "broken", "reported".
+[[nodiscard]] std::string verdict_text(const Finding& finding);
+// Verdict, measured value, bound, measure.
 [[nodiscard]] std::string line_from(const Finding& finding);
 // A heading a failure, a line a finding.
 [[nodiscard]] std::string text_from(const Result& result);

@@ -110,10 +110,14 @@ Outcome provoke(Workbench& workbench) {
          "above 1 a band shows something worse than nothing: a ghost"},
         {"PBI-30: the same", Sense::at_most, 1.0 + 1e-6, pbi.residual,
          "a band above 1 is reset to exactly 1, and columns taken after that only lower it"},
-        {"BI-30: light where the light is not, of the light's energy", Sense::at_least, 1.0,
-         bi.trail, "as much light in the trail as in the light itself"},
-        {"PBI-30: the same", Sense::at_most, bi.trail, pbi.trail, "less than BI's"},
-        {"NWA-30: the same", Sense::at_most, bi.trail, nwa.trail, "no memory, no trail"},
+        {"BI-30: light where the light is not, of the light's energy", Sense::at_least, 0.25,
+         bi.trail, "a quarter of the light stands where it no longer is"},
+        {"PBI-30: the same, of NWA-30's", Sense::at_most, 2, pbi.trail / nwa.trail,
+         "NWA has no memory: its wavelets spill, no more; no band of PBI begins an image "
+         "farther "
+         "from it than NWA's does, so it may spill as much and keep as much again"},
+        {"guarded-30: the same, of NWA-30's", Sense::at_most, 2, guarded.trail / nwa.trail,
+         "the same, in the image's measure"},
         {"BI-30: largest image error over NWA-30's", Sense::at_least, 1.0,
          bi.image_error / nwa.image_error, "remembering is worse than forgetting"},
         {"guarded-30: the same", Sense::at_most, (1 + deviation) / (1 - deviation),

@@ -8,7 +8,8 @@
 namespace relume::stability {
 
 OpenPlane::OpenPlane(Workbench& workbench)
-    : scene_(workbench.baked("plane", {.width = 32, .height = 32})), session_(scene_, {}) {}
+    : scene_(workbench.baked("plane", {.width = 32, .height = 32, .face_resolution = 16})),
+      session_(scene_, {}) {}
 
 std::uint32_t OpenPlane::face_resolution() const {
     return scene_->face_resolution();

@@ -53,7 +53,7 @@ std::size_t differing_values(std::span<const float> a, std::span<const float> b)
 }
 
 Outcome provoke(Workbench& workbench) {
-    const auto scene = workbench.baked("table");
+    const auto scene = workbench.baked("table", {.face_resolution = 16});
     const std::uint32_t n = scene->face_resolution();
     const auto environment = prefiltered(light::procedural_environment("sky-afternoon"), n);
     const Imath::Quatf first;

@@ -113,8 +113,8 @@ Uncompensated add_without_end(const engine::Scene& scene,
 }
 
 Outcome provoke(Workbench& workbench) {
-    const auto scene = workbench.baked(
-        "table", {.width = 64, .height = 48, .face_resolution = 8, .bounces = 1});
+    const auto scene =
+        workbench.baked("table", {.width = 64, .height = 48, .face_resolution = 8});
     const LampScript script(scene->face_resolution());
     const std::size_t edits = workbench.choose<std::size_t>(10'000, 1'000'000);
     const std::size_t uncompensated_edits = workbench.choose<std::size_t>(2'000, 20'000);

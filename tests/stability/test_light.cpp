@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace relume::stability {
 
@@ -32,6 +33,22 @@ Lighting sky_and_disc(std::uint32_t face_resolution,
     light::LightCubemap cubemap = constant_sky(face_resolution, sky_radiance);
     light::add_area_light(disc, cubemap);
     return lighting_from_cubemap(cubemap);
+}
+
+std::vector<Lighting> turning_environment(
+    std::shared_ptr<const light::PrefilteredEnvironment> environment,
+    float degrees_per_image,
+    std::size_t images) {
+    light::LightRig rig;
+    rig.environment = std::move(environment);
+    std::vector<Lighting> lightings;
+    for (std::size_t i = 0; i < images; ++i) {
+        rig.rotation.setAxisAngle(
+            Imath::V3f(0, 1, 0),
+            radians_from_degrees(degrees_per_image * static_cast<float>(i)));
+        lightings.push_back(lighting_from_rig(rig, rig.environment->face_resolution()));
+    }
+    return lightings;
 }
 
 light::LightCubemap point_sampled(std::uint32_t face_resolution,

@@ -6,7 +6,10 @@
 
 #include <Imath/ImathVec.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace relume::stability {
 
@@ -17,6 +20,11 @@ namespace relume::stability {
 
 // Every texel of this radiance.
 [[nodiscard]] light::LightCubemap constant_sky(std::uint32_t face_resolution, float radiance);
+// The environment turned about the vertical, by so much from image to image.
+[[nodiscard]] std::vector<Lighting> turning_environment(
+    std::shared_ptr<const light::PrefilteredEnvironment> environment,
+    float degrees_per_image,
+    std::size_t images);
 // A sky with a disc of light in it.
 [[nodiscard]] Lighting sky_and_disc(std::uint32_t face_resolution,
                                     float sky_radiance,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/engine/scene.h"
+#include "tests/support/scene_cache.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +23,7 @@ enum class Effort {
 struct SceneSize {
     std::uint32_t width = 96;
     std::uint32_t height = 72;
-    std::uint32_t face_resolution = 16;
+    std::uint32_t face_resolution = 32;
     std::uint32_t bounces = 0;
 };
 
@@ -46,7 +47,7 @@ class Workbench {
         return options_.effort == Effort::brief ? brief : thorough;
     }
     [[nodiscard]] std::uint64_t seed() const { return options_.seed; }
-    [[nodiscard]] const std::filesystem::path& cache() const { return options_.cache; }
+    [[nodiscard]] const std::filesystem::path& cache() const { return cache_.folder(); }
     void progress(std::string_view what, double part) const { options_.progress(what, part); }
 
     // Baked when it is not in the cache, which takes seconds.
@@ -58,6 +59,7 @@ class Workbench {
 
   private:
     Options options_;
+    test::SceneCache cache_;
     std::map<std::string, std::shared_ptr<const engine::Scene>> scenes_;
 };
 
