@@ -21,12 +21,13 @@ void Lighting::set_target(std::span<const float> coefficients) {
         throw std::invalid_argument(fmt::format("lighting has {} values, expected {} (3 x {})",
                                                 coefficients.size(), target_.size(), count_));
     }
-    const auto wrong = std::find_if_not(coefficients.begin(), coefficients.end(),
-                                        [](float value) { return std::isfinite(value); });
+    const auto wrong =
+        std::find_if_not(coefficients.begin(), coefficients.end(),
+                         [](float value) { return std::abs(value) <= kLargestCoefficient; });
     if (wrong != coefficients.end()) {
         throw std::invalid_argument(
-            fmt::format("lighting value {} is {}, expected a finite number",
-                        wrong - coefficients.begin(), *wrong));
+            fmt::format("lighting value {} is {}, expected a number of at most {}",
+                        wrong - coefficients.begin(), *wrong, kLargestCoefficient));
     }
     std::copy(coefficients.begin(), coefficients.end(), target_.begin());
 }

@@ -10,12 +10,18 @@
 
 namespace relume::engine {
 
+// Larger coefficients are refused: differences of two, times transport, and their sums must
+// stay finite in float. Images of a scene that reflects no more than it gets are below 10⁴
+// times this; the wire's largest lights reach 10²³.
+inline constexpr float kLargestCoefficient = 1e30F;
+
 // Planar [3][N] both. Not thread-safe.
 class Lighting {
   public:
     explicit Lighting(const Scene& scene);
 
-    // Throws std::invalid_argument when the count is not 3·N or a value is not finite.
+    // Throws std::invalid_argument when the count is not 3·N or a value is not a number of at
+    // most kLargestCoefficient, either sign.
     void set_target(std::span<const float> coefficients);
 
     [[nodiscard]] std::span<const float> target() const { return target_; }

@@ -3,18 +3,15 @@
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/dark_tenth_error.h"
 #include "tests/support/tiny_transport.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace relume::bench {
 namespace {
-
-using transport::kBlockSize;
-using transport::kColours;
 
 constexpr float kLampRadiance = 1e5F;
 // Of every hundred edits the lamp is on for ten.
@@ -36,49 +33,6 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
         basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution));
     light::lighting_coefficients(cubemap, *projection, coefficients);
     return coefficients;
-}
-
-// Error of the sums against what they should be, both [blocks][3][256] in the basis of the
-// blocks: relative, of the image, in the tenth of the covered pixels in which it is darkest.
-double dark_tenth_error(const engine::Scene& scene,
-                        std::span<const float> shown_sums,
-                        std::vector<double> exact) {
-    std::vector<double> shown(shown_sums.begin(), shown_sums.end());
-    test::receivers_from_sums(shown);
-    test::receivers_from_sums(exact);
-    struct Pixel {
-        double value = 0;
-        double error = 0;
-    };
-    const auto tint = scene.transport().tint();
-    const auto coverage = scene.transport().coverage();
-    std::vector<Pixel> pixels;
-    for (std::size_t receiver = 0; receiver < coverage.size(); ++receiver) {
-        if (coverage[receiver] <= 0) {
-            continue;
-        }
-        Pixel pixel;
-        const std::size_t first =
-            receiver / kBlockSize * kColours * kBlockSize + receiver % kBlockSize;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            const std::size_t i = first + c * kBlockSize;
-            const double value = exact[i] * double{tint[i]};
-            const double error = shown[i] * double{tint[i]} - value;
-            pixel.value += value * value;
-            pixel.error += error * error;
-        }
-        pixels.push_back(pixel);
-    }
-    const auto tenth = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 10);
-    std::nth_element(pixels.begin(), tenth, pixels.end(),
-                     [](const Pixel& a, const Pixel& b) { return a.value < b.value; });
-    double value = 0;
-    double error = 0;
-    for (auto pixel = pixels.begin(); pixel != tenth; ++pixel) {
-        value += pixel->value;
-        error += pixel->error;
-    }
-    return std::sqrt(error / value);
 }
 
 // The worst of all checks. Each stands at the end of a period, long after the lamp went out,
@@ -105,7 +59,8 @@ double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
         session.advance(budget);
         if ((edit + 1) % (edits / kChecks) == 0) {
             const auto exact = test::dense_product(scene->transport(), session.approximation());
-            worst = std::max(worst, dark_tenth_error(*scene, session.sums(), exact));
+            worst = std::max(worst,
+                             test::dark_tenth_error(scene->transport(), session.sums(), exact));
         }
     }
     return worst;

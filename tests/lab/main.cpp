@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     const std::vector<lab::Command> commands{
         lab::add_run_command(app), lab::add_pareto_command(app), lab::add_terms_command(app),
-        lab::add_seeds_command(app)};
+        lab::add_seeds_command(app), lab::add_stability_command(app)};
     CLI11_PARSE(app, argc, argv);
     try {
         for (const lab::Command& command : commands) {

@@ -225,7 +225,8 @@ TEST(Session, RefusesLightingThatIsNotOne) {
     EXPECT_THROW(session.set_lighting(std::span(light).first(light.size() - 1)),
                  std::invalid_argument);
     for (const float wrong :
-         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+          1.01F * kLargestCoefficient, -1.01F * kLargestCoefficient}) {
         auto broken = light;
         broken[100] = wrong;
         EXPECT_THROW(session.set_lighting(broken), std::invalid_argument);

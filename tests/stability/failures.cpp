@@ -1,0 +1,17 @@
+#include "tests/stability/failures.h"
+
+#include "tests/stability/provocations.h"
+
+#include <array>
+
+namespace relume::stability {
+
+std::span<const Failure> failures() {
+    static const std::array all{ghosts(),         reset_flicker(),     popping(),
+                                rounding_drift(), repeated_rotation(), face_crossing(),
+                                small_lights(),   highlight_columns(), bad_texels(),
+                                edit_histories(), extreme_lighting(),  slow_rest()};
+    return all;
+}
+
+}  // namespace relume::stability

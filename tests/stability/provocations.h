@@ -1,0 +1,21 @@
+// The failures, a file each. Internal to tests/stability; failures.cpp lists them.
+#pragma once
+
+#include "tests/stability/failure.h"
+
+namespace relume::stability {
+
+[[nodiscard]] Failure ghosts();
+[[nodiscard]] Failure reset_flicker();
+[[nodiscard]] Failure popping();
+[[nodiscard]] Failure rounding_drift();
+[[nodiscard]] Failure repeated_rotation();
+[[nodiscard]] Failure face_crossing();
+[[nodiscard]] Failure small_lights();
+[[nodiscard]] Failure highlight_columns();
+[[nodiscard]] Failure bad_texels();
+[[nodiscard]] Failure edit_histories();
+[[nodiscard]] Failure extreme_lighting();
+[[nodiscard]] Failure slow_rest();
+
+}  // namespace relume::stability

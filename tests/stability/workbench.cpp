@@ -1,0 +1,40 @@
+#include "tests/stability/workbench.h"
+
+#include "protocol/transport/transport.h"
+#include "tests/support/tiny_transport.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace relume::stability {
+
+Workbench::Workbench(Options options) : options_(std::move(options)), cache_(options_.cache) {}
+
+std::shared_ptr<const engine::Scene> Workbench::baked(const std::string& builtin,
+                                                      const SceneSize& size) {
+    const std::string image = fmt::format("{}x{}", size.width, size.height);
+    const std::string name =
+        fmt::format("{}-{}-{}-{}", builtin, image, size.face_resolution, size.bounces);
+    auto& scene = scenes_[name];
+    if (!scene) {
+        scene = cache_.baked(name, {"--builtin", builtin, "--size", image, "--light-resolution",
+                                    std::to_string(size.face_resolution), "--bounces",
+                                    std::to_string(size.bounces), "--samples", "16"});
+    }
+    return scene;
+}
+
+std::shared_ptr<const engine::Scene> Workbench::tiny(std::uint32_t channels) {
+    const std::string name = fmt::format("tiny-{}", channels);
+    auto& scene = scenes_[name];
+    if (!scene) {
+        const auto directory = cache_.folder() / (name + ".relume");
+        std::filesystem::remove_all(directory);
+        test::write_tiny_transport(directory, {.channels = channels});
+        scene = std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+    }
+    return scene;
+}
+
+}  // namespace relume::stability
