@@ -88,7 +88,7 @@ Measured measure(const std::shared_ptr<const engine::Scene>& scene,
 Outcome provoke(Workbench& workbench) {
     const auto scene = workbench.baked("table");
     std::vector<Lighting> lightings;
-    const std::size_t images = workbench.choose(40U, 400U);
+    const std::size_t images = workbench.choose(40U, 200U);
     for (std::size_t i = 0; i < images; ++i) {
         lightings.push_back(sky_and_disc(scene->face_resolution(), kSky, light_of(i)));
     }
