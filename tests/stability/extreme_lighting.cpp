@@ -84,7 +84,7 @@ bool is_refused(const std::shared_ptr<const engine::Scene>& scene, float largest
 }
 
 Outcome provoke(Workbench& workbench) {
-    const std::uint64_t seeds = workbench.choose<std::uint64_t>(2, 60);
+    const std::uint64_t seeds = workbench.choose<std::uint64_t>(2, 20);
     const auto swing_all = [&](float largest) {
         Extremes extremes;
         for (const std::uint32_t channels : {1U, 3U}) {

@@ -100,9 +100,9 @@ Outcome provoke(Workbench& workbench) {
     };
     outcome.tiles = {
         {exact[at], fmt::format("exact, image {}", at), exposure},
-        change_tile("exact: 20 × change to it", exact[at], exact[at - 1]),
-        change_tile("NWA-30: 20 × change", nwa.run.images[at], nwa.run.images[at - 1]),
-        change_tile("guarded-30: 20 × change", guarded.run.images[at],
+        change_tile("exact: 20x change to it", exact[at], exact[at - 1]),
+        change_tile("NWA-30: 20x change", nwa.run.images[at], nwa.run.images[at - 1]),
+        change_tile("guarded-30: 20x change", guarded.run.images[at],
                     guarded.run.images[at - 1])};
     return outcome;
 }

@@ -119,11 +119,11 @@ Outcome provoke(Workbench& workbench) {
     const float exposure = 1.5F;
     outcome.tiles = {
         {image_of_faces(start.radiance, n), "first lighting, six faces", exposure},
-        {image_of_faces(back.radiance, n), "from the source, after 10⁴ turns", exposure},
+        {image_of_faces(back.radiance, n), "from the source, 10000 turns", exposure},
         {image_of_faces(degraded.radiance, n), "from the last result, after one turn",
          exposure},
         {start_image, "first image", exposure_for(start_image)},
-        {back_image, "after 10⁴ turns", exposure_for(start_image)},
+        {back_image, "after 10000 turns", exposure_for(start_image)},
         {show(degraded), "from the last result, one turn", exposure_for(start_image)}};
     return outcome;
 }

@@ -69,7 +69,7 @@ Outcome provoke(Workbench& workbench) {
     const auto scene = workbench.baked("table");
     const auto lightings =
         turning_environment(lab::load_environment("night", scene->face_resolution()),
-                            kDegreesPerImage, workbench.choose(60U, 480U));
+                            kDegreesPerImage, workbench.choose(60U, 240U));
     const auto exact = exact_images(scene, lightings);
     workbench.progress("reset_flicker", 0.3);
     const auto run_of = [&](wire::Method method) {
@@ -119,7 +119,7 @@ Outcome provoke(Workbench& workbench) {
                  exposure});
             outcome.tiles.push_back(
                 {absolute_difference(run->images[i], exact[i], kGain),
-                 fmt::format("2 × error, {:.3f}",
+                 fmt::format("2x error, {:.3f}",
                              distance(run->images[i], exact[i]) / norm(exact[i])),
                  exposure});
         }
