@@ -11,10 +11,11 @@ struct KernelTime {
     double per_cell_ns;
     double per_value_ns;
 };
-constexpr KernelTime kPacked{.per_cell_ns = 5, .per_value_ns = 0.45};
-constexpr double kOccupancyNs = 20;  // slots from a bitmap
-constexpr double kDenseNs = 18;
-constexpr double kDenseWideNs = 25;  // 16 bits or floats
+constexpr KernelTime kPacked{.per_cell_ns = 18, .per_value_ns = 1.3};
+constexpr double kOccupancyNs = 47;  // slots from a bitmap
+constexpr double kDense8Ns = 49;
+constexpr double kDense16Ns = 56;
+constexpr double kFloatsNs = 98;
 
 template <typename T>
 bool in_range(const CellShape& shape) {
@@ -106,14 +107,16 @@ double CellShape::nanoseconds(CellTag tag) const {
         case CellTag::empty:
             return 0;
         case CellTag::dense8:
-            return kDenseNs;
+            return kDense8Ns;
         case CellTag::sparse8:
             return packed_ns(nonzeros);
         case CellTag::bitmap8:
         case CellTag::bitmap16:
             return kOccupancyNs + packed_ns(nonzeros);
+        case CellTag::dense16:
+            return kDense16Ns;
         default:
-            return kDenseWideNs;
+            return kFloatsNs;
     }
 }
 
