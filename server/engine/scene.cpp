@@ -43,7 +43,7 @@ void Scene::order_by_band() {
     std::stable_sort(
         columns_by_band_.begin(), columns_by_band_.end(),
         [this](std::uint32_t a, std::uint32_t b) { return bands_[a] < bands_[b]; });
-    for (std::uint32_t band = 0; band <= band_count_; ++band) {
+    for (std::uint32_t band = 0; band <= band_count(); ++band) {
         const auto begin =
             std::partition_point(columns_by_band_.begin(), columns_by_band_.end(),
                                  [&](std::uint32_t j) { return bands_[j] < band; });
