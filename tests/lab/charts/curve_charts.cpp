@@ -65,12 +65,12 @@ std::string plot_command(const std::vector<Curve>& curves) {
         if (!curves[i].resets.empty()) {
             any_resets = true;
             command +=
-                fmt::format(", $resets{} using 1:2 with points pt 7 ps 0.5 lc rgb '{}' notitle",
+                fmt::format(", $resets{} using 1:2 with points pt 7 ps 0.9 lc rgb '{}' notitle",
                             i, chart_colour(i));
         }
     }
     if (any_resets) {
-        command += ", keyentry with points pt 7 ps 0.6 lc rgb '#000000' title 'bands reset'";
+        command += ", keyentry with points pt 7 ps 0.9 lc rgb '#000000' title 'bands reset'";
     }
     return command + "\n";
 }

@@ -76,7 +76,8 @@ const char* axis_of(ParetoCost cost) {
                                             : "kB of transport read an image, mean";
 }
 
-// The range of the points with a little room, and ticks at 1, 2 and 5 of each decade.
+// The range of the points with a little room, and ticks at 1, 2 and 5 of each decade; more of
+// them where the range is less than one.
 std::string cost_axis(const ParetoPanel& panel, ParetoCost cost) {
     constexpr double kRoom = 1.15;
     double least = std::numeric_limits<double>::infinity();
@@ -86,11 +87,14 @@ std::string cost_axis(const ParetoPanel& panel, ParetoCost cost) {
         least = std::min(least, value);
         largest = std::max(largest, value);
     }
+    const std::vector<double> steps = largest < 6 * least
+                                          ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
+                                          : std::vector<double>{1, 2, 5};
     std::vector<std::string> ticks;
     for (double decade = std::pow(10, std::floor(std::log10(least))); decade < largest * kRoom;
          decade *= 10) {
-        for (const double tick : {decade, 2 * decade, 5 * decade}) {
-            ticks.push_back(fmt::format("{:g}", tick));
+        for (const double step : steps) {
+            ticks.push_back(fmt::format("{:g}", step * decade));
         }
     }
     return fmt::format("set xrange [{:.4g}:{:.4g}]\nset xtics ({})\n", least / kRoom,

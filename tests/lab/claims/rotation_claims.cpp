@@ -6,24 +6,71 @@
 namespace relume::lab {
 namespace {
 
-// PBI-30's image error over that of NWA with more terms, by light.
-Claim ratio_claim(const std::vector<LightRun>& runs,
-                  std::string claim,
-                  std::string source,
-                  const std::string& nwa,
-                  double Summary::*error,
-                  std::string why) {
-    const auto ratio = [&](const LightRun& run) {
-        return run.of("pbi-30-area").*error / run.of(nwa).*error;
+constexpr const char* kSource = "[Overbeck06 §6]";
+constexpr const char* kPbi = "pbi-30-area";
+
+double mean_l2(const LightRun& run, const std::string& method, bool fast) {
+    // slow-fast-slow covers four fifths of its way in images 25 to 74.
+    double sum = 0;
+    double count = 0;
+    for (const Record& record : records_of(run.findings.records, method)) {
+        const bool is_fast = record.image >= 25 && record.image < 75;
+        if (record.image < 100 && is_fast == fast) {
+            sum += record.error.l2;
+            count += 1;
+        }
+    }
+    return sum / count;
+}
+
+// PBI-30 against NWA with more terms, over the images that move.
+Claim moving_claim(const std::vector<LightRun>& runs, const std::string& nwa) {
+    const auto ratio = [&](const LightRun& run) { return run.of(kPbi).l2 / run.of(nwa).l2; };
+    const auto half = [&](bool fast) {
+        return by_light(runs, [&, fast](const LightRun& run) {
+            return mean_l2(run, kPbi, fast) / mean_l2(run, nwa, fast);
+        });
     };
     const bool holds =
         under_all_lights(runs, [&](const LightRun& run) { return ratio(run) <= 1; });
     return {
-        .claim = std::move(claim),
-        .source = std::move(source),
-        .found = fmt::format("PBI-30 over {}, L2 of the image: {}", nwa, by_light(runs, ratio)),
+        .claim = fmt::format("While the light turns PBI-30 errs no more than {}: ratio of "
+                             "means ≤ 1",
+                             nwa),
+        .source = kSource,
+        .found = fmt::format("L2 of the image: {}; in the slower half of the images: {}; in "
+                             "the faster: {}",
+                             by_light(runs, ratio), half(false), half(true)),
         .holds = holds,
-        .why = holds ? "" : std::move(why)};
+        .why = holds ? ""
+                     : "Up to 7 degrees an image are more than two texels: in the faster "
+                       "half little of the last image is right in this one, and thirty "
+                       "terms are left to do what NWA does with more. Our scene is glossy "
+                       "and shows it."};
+}
+
+// PBI-30 against NWA with more terms, some images after the light rests.
+Claim resting_claim(const std::vector<LightRun>& runs,
+                    const std::string& nwa,
+                    std::uint32_t images,
+                    double Summary::*error) {
+    const auto pbi = [&](const LightRun& run) { return run.of(kPbi).*error; };
+    const auto ratio = [&](const LightRun& run) { return pbi(run) / (run.of(nwa).*error); };
+    const bool holds =
+        under_all_lights(runs, [&](const LightRun& run) { return ratio(run) <= 1; });
+    return {.claim = fmt::format("{} images after the light rests PBI-30 is no worse than {}: "
+                                 "ratio ≤ 1",
+                                 images, nwa),
+            .source = kSource,
+            .found = fmt::format("L2 of the image: {}; PBI-30 itself: {}",
+                                 by_light(runs, ratio), by_light(runs, pbi)),
+            .holds = holds,
+            .why = holds
+                       ? ""
+                       : fmt::format("By then PBI has spent {} terms on the light that stays; "
+                                     "where NWA needs few terms, as under few lamps, it takes "
+                                     "some images more.",
+                                     30 * (images + 1))};
 }
 
 Claim coarse_bands_claim(const std::vector<LightRun>& runs) {
@@ -31,7 +78,7 @@ Claim coarse_bands_claim(const std::vector<LightRun>& runs) {
     std::size_t images = 0;
     const auto resets = [](const LightRun& run) {
         double count = 0;
-        for (const Record& record : records_of(run.findings.records, "pbi-30-area")) {
+        for (const Record& record : records_of(run.findings.records, kPbi)) {
             count += (record.bands_reset & kTwoCoarsest) != 0 ? 1 : 0;
         }
         return count;
@@ -41,42 +88,29 @@ Claim coarse_bands_claim(const std::vector<LightRun>& runs) {
     }
     const bool holds =
         under_all_lights(runs, [&](const LightRun& run) { return resets(run) == 0; });
-    return {.claim = "PBI never resets the two coarsest bands: no image does",
-            .source = "[Overbeck06 §5]",
-            .found = fmt::format("images of PBI-30 that reset one of them, of {} in all: {}",
-                                 images, by_light(runs, resets)),
-            .holds = holds,
-            .why = holds
-                       ? ""
-                       : "A bright lamp that turns by more than the width of a coarse wavelet "
-                         "from one image to the next changes the coarse bands as wholly as "
-                         "the fine ones; where the two coarsest bands are nearer from "
-                         "nothing, the criterion says so."};
+    return {
+        .claim = "PBI never resets the two coarsest bands: no image does",
+        .source = "[Overbeck06 §5]",
+        .found = fmt::format("images of PBI-30 that reset one of them, of {} in all: {}",
+                             images, by_light(runs, resets)),
+        .holds = holds,
+        .why = holds
+                   ? ""
+                   : "It happens in the fastest images, together with finer bands: lamps that "
+                     "turn by more than two texels leave their place in band 1 as well "
+                     "(16 by 16 texels a wavelet), and the criterion takes the sums of "
+                     "absolute values band by band, whatever the band's number."};
 }
 
 }  // namespace
 
 std::vector<Claim> rotation_claims(Evidence& evidence) {
     const std::vector<LightRun>& runs = evidence.rotations();
-    const std::string moving =
-        "In the fast part thirty terms cannot follow lights that cross several texels an "
-        "image, "
-        "and what an increment leaves of their old place is error too; NWA has no past.";
-    const std::string resting =
-        "The table's glossy crockery shows fine wavelets that thirty terms an image have not "
-        "reached by then.";
     return {
-        ratio_claim(runs,
-                    "While the light turns PBI-30 errs no more than NWA-60: mean ratio ≤ 1",
-                    "[Overbeck06 §6]", "nwa-60-area", &Summary::l2, moving),
-        ratio_claim(runs,
-                    "While the light turns PBI-30 errs no more than NWA-100: mean ratio ≤ 1",
-                    "[Overbeck06 §6]", "nwa-100-area", &Summary::l2, moving),
-        ratio_claim(runs, "Five images after the light rests PBI-30 is at NWA-300: ratio ≤ 1",
-                    "[Overbeck06 §6]", "nwa-300-area", &Summary::soon_l2, resting),
-        ratio_claim(
-            runs, "Twenty-five images after the light rests PBI-30 is below NWA-500: ratio ≤ 1",
-            "[Overbeck06 §6]", "nwa-500-area", &Summary::later_l2, resting),
+        moving_claim(runs, "nwa-60-area"),
+        moving_claim(runs, "nwa-100-area"),
+        resting_claim(runs, "nwa-300-area", kSoon, &Summary::soon_l2),
+        resting_claim(runs, "nwa-500-area", kLater, &Summary::later_l2),
         coarse_bands_claim(runs),
     };
 }

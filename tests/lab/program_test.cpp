@@ -1,0 +1,106 @@
+// relume-lab as people run it.
+#include "tests/support/program.h"
+
+#include "tests/support/scratch_directory.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace relume::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t line_count(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class ProgramTest : public testing::Test {
+  protected:
+    // Turns the light by two degrees an image.
+    [[nodiscard]] fs::path sequence_of(std::uint32_t images) const {
+        const fs::path file = scratch_.path() / "turn.json";
+        const nlohmann::json json{{"name", "turn"},
+                                  {"description", "A turn."},
+                                  {"images", images},
+                                  {"seed", 1},
+                                  {"yaw_degrees", {{"keys", {{0, 0}, {1000, 2000}}}}}};
+        std::ofstream(file) << json;
+        return file;
+    }
+    [[nodiscard]] test::Program run_of(std::uint32_t images) const {
+        return {RELUME_LAB,
+                {"run", "--transport", RELUME_TEST_SCENE, "--environment", "sky-afternoon",
+                 "--sequence", sequence_of(images).string(), "--methods",
+                 "nwa-30,pbi-30-transport", "--pictures", "1", "-o", output().string()},
+                scratch_.path(),
+                "relume-lab"};
+    }
+    [[nodiscard]] fs::path output() const { return scratch_.path() / "out"; }
+    [[nodiscard]] nlohmann::json run_json() const {
+        return nlohmann::json::parse(content_of(output() / "run.json"));
+    }
+
+    test::ScratchDirectory scratch_;
+};
+
+TEST_F(ProgramTest, ARunLeavesAllThatItPromises) {
+    constexpr std::uint32_t kImages = 4;
+    test::Program run = run_of(kImages);
+    ASSERT_EQ(run.wait(), 0) << run.errors();
+    EXPECT_EQ(line_count(content_of(output() / "records.csv")), 1 + 2 * kImages);
+    const nlohmann::json json = run_json();
+    EXPECT_EQ(json["complete"], true);
+    EXPECT_EQ(json["records"].size(), 2 * kImages);
+    const std::string report = content_of(output() / "report.html");
+    EXPECT_NE(report.find("</html>"), std::string::npos);
+    EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos);
+    for (const char* chart : {"error", "flicker", "coverage", "bands", "energy"}) {
+        const std::string name = chart;
+        const std::string svg = content_of(output() / (name + ".svg"));
+        EXPECT_NE(svg.find("<svg"), std::string::npos) << name;
+        EXPECT_NE(svg.find("</svg>"), std::string::npos) << name;
+        EXPECT_EQ(content_of(output() / (name + ".png")).substr(1, 3), "PNG") << name;
+    }
+    for (const auto& entry : fs::directory_iterator(output())) {
+        EXPECT_NE(entry.path().extension(), ".part") << "left behind";
+    }
+}
+
+TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHasAndSaysSo) {
+    test::Program run = run_of(100000);
+    while (run.is_running() && run.errors().find("image 1 of") == std::string::npos) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    ASSERT_TRUE(run.is_running()) << run.errors();
+    run.send(SIGINT);
+    EXPECT_EQ(run.wait(), 130) << run.errors();
+    const nlohmann::json json = run_json();
+    EXPECT_EQ(json["complete"], false);
+    EXPECT_EQ(json["records"].size(), 2 * json["images_done"].get<std::size_t>());
+    EXPECT_NE(content_of(output() / "report.html").find("interrupted"), std::string::npos);
+    EXPECT_NE(run.errors().find("partial"), std::string::npos);
+}
+
+TEST_F(ProgramTest, AMistakeEndsInWords) {
+    test::Program run(RELUME_LAB,
+                      {"run", "--transport", "/nowhere.relume", "--environment", "sky-noon"},
+                      scratch_.path(), "relume-lab");
+    EXPECT_EQ(run.wait(), 1);
+    EXPECT_NE(run.errors().find("/nowhere.relume"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace relume::lab
