@@ -100,7 +100,7 @@ TEST_F(BasisBake, ConvergesToTheWaveletImageUnderLowFrequencyLight) {
     });
     const RelitImage reference = relight(*baked("table", parameters_of(Kind::haar)), light);
     double last = 1;
-    for (const std::uint32_t order : {2U, 4U, 7U, 12U}) {
+    for (const std::uint32_t order : {2U, 5U, 12U}) {
         const double error = relative_l2(
             relight(*baked("table", parameters_of(Kind::spherical_harmonics, order)), light),
             reference);
