@@ -9,6 +9,7 @@
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
 #include "tests/support/dense_product.h"
+#include "tests/support/scratch_directory.h"
 
 #include <fmt/format.h>
 
@@ -154,8 +155,8 @@ Outcome provoke(Workbench& workbench) {
     parameters.height = 32;
     parameters.face_resolution = 16;
     parameters.bounces = 0;
-    const auto directory = workbench.cache() / "mirror-ball.relume";
-    std::filesystem::remove_all(directory);
+    const test::ScratchDirectory scratch;
+    const auto directory = scratch.path() / "mirror-ball.relume";
     bake::bake(scene, parameters, directory);
     const auto transport = transport::Transport::open(directory);
     workbench.progress("highlight_columns", 0.2);

@@ -1,6 +1,7 @@
 #include "tests/stability/workbench.h"
 
 #include "protocol/transport/transport.h"
+#include "tests/support/scratch_directory.h"
 #include "tests/support/tiny_transport.h"
 
 #include <fmt/format.h>
@@ -29,8 +30,9 @@ std::shared_ptr<const engine::Scene> Workbench::tiny(std::uint32_t channels) {
     const std::string name = fmt::format("tiny-{}", channels);
     auto& scene = scenes_[name];
     if (!scene) {
-        const auto directory = cache_.folder() / (name + ".relume");
-        std::filesystem::remove_all(directory);
+        // What has been opened is mapped and outlives its folder.
+        const test::ScratchDirectory scratch;
+        const auto directory = scratch.path() / (name + ".relume");
         test::write_tiny_transport(directory, {.channels = channels});
         scene = std::make_shared<const engine::Scene>(transport::Transport::open(directory));
     }
