@@ -6,14 +6,12 @@
 namespace relume::transport {
 namespace {
 
-// Time of a cell: so much, and so much for every value stored.
-struct KernelTime {
-    double per_cell_ns;
-    double per_value_ns;
-};
-constexpr KernelTime kPacked{.per_cell_ns = 18, .per_value_ns = 1.3};
-constexpr double kOccupancyNs = 47;  // slots from a bitmap
-constexpr double kDense8Ns = 49;
+// Sparse cells: so much, and so much for every value.
+constexpr double kSparseNs = 15;
+constexpr double kSparseValueNs = 1.7;
+// However many values there are, as they are spread to all slots.
+constexpr double kBitmapNs = 115;
+constexpr double kDense8Ns = 44;
 constexpr double kDense16Ns = 56;
 constexpr double kFloatsNs = 98;
 
@@ -27,8 +25,8 @@ std::size_t sparse_bytes(std::size_t nonzeros) {
     return 1 + 2 * nonzeros;
 }
 
-double packed_ns(std::size_t values) {
-    return kPacked.per_cell_ns + kPacked.per_value_ns * static_cast<double>(values);
+double sparse_ns(std::size_t values) {
+    return kSparseNs + kSparseValueNs * static_cast<double>(values);
 }
 
 // The low part of a split cell as a cell of its own.
@@ -101,7 +99,7 @@ std::size_t CellShape::bytes(CellTag tag) const {
 
 double CellShape::nanoseconds(CellTag tag) const {
     if (is_split(tag)) {
-        return packed_ns(high_nonzeros) + low_part(*this).nanoseconds(low_tag(tag));
+        return sparse_ns(high_nonzeros) + low_part(*this).nanoseconds(low_tag(tag));
     }
     switch (tag) {
         case CellTag::empty:
@@ -109,10 +107,10 @@ double CellShape::nanoseconds(CellTag tag) const {
         case CellTag::dense8:
             return kDense8Ns;
         case CellTag::sparse8:
-            return packed_ns(nonzeros);
+            return sparse_ns(nonzeros);
         case CellTag::bitmap8:
         case CellTag::bitmap16:
-            return kOccupancyNs + packed_ns(nonzeros);
+            return kBitmapNs;
         case CellTag::dense16:
             return kDense16Ns;
         default:

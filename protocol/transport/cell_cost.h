@@ -36,6 +36,6 @@ struct CellShape {
 
 // The rate of exchange: what a byte of memory and file is worth, not what it takes to read one
 // (two threads that read 25 GB/s between them wait 0.08 ns for it).
-inline constexpr double kNanosecondsPerByte = 0.64;
+inline constexpr double kNanosecondsPerByte = 1.28;
 
 }  // namespace relume::transport

@@ -48,12 +48,10 @@ inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
 // For every segment s, block b of the shard, colour c and slot i, adds weights(s,c)·q(s,b,i) to
 // both targets. The order is part of the contract, so that every instruction set gives the same
 // bits:
-// - of each group of segments, a block's dense cells (the low part of a split cell counts for
-//   itself) are added up from zero: those of 8 bits, then those of 16, then floats, each in the
-//   order of the segments; the result is added to the targets;
-// - after the last group, all its packed cells (sparse, bitmap) are added up from zero in the
-//   order of the segments, a split cell's high part, with 256 times the weight, before its low
-//   part; the result is added to the targets;
+// - of each group of segments, a block's 8-bit cells (dense8, bitmap8), then its 16-bit cells,
+//   then its float cells, each in the order of the segments, are added up from zero, and the
+//   result is added to the targets; after the last group, the same goes for all its sparse
+//   values, those of a split cell's high part, with 256 times the weight, before its low part;
 // - every product is added without rounding in between (fused multiply-add).
 using AccumulateSegments = void(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,

@@ -167,19 +167,19 @@ class Workspace {
                 segments.size(), [&](std::size_t s) { return segments[s]; }, block_count);
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(block);
-                dense_.take(members, block, stride_);
+                values_.take(members, block, stride_);
             }
         }
         for (std::uint32_t block = 0; block < block_count; ++block) {
-            packed_[block].take(members, block, stride_);
+            sparse_[block].take(members, block, stride_);
         }
     }
 
   private:
     using Lists = CellLists<Wave::kMaxSegments>;
 
-    // In the order of the contract: packed cells to their own sums; of the dense ones first
-    // those of 8 bits, then of 16, then floats.
+    // In the order of the contract: sparse values to their own sums; of the others first those
+    // of 8 bits, then of 16, then floats.
     void take_cells(std::uint32_t block) {
         wide_.clear();
         for (const ListedCell& listed : lists_.of_block(block)) {
@@ -187,49 +187,41 @@ class Workspace {
             const std::uint8_t* cell = listed.cell;
             CellTag tag = listed.tag;
             if (transport::is_split(tag)) {
-                add_sparse8(block, cell, lanes, transport::kHighPart);
-                cell += transport::cell_bytes(CellTag::sparse8, cell);
+                cell = add_sparse(block, cell, lanes, transport::kHighPart);
                 tag = transport::low_tag(tag);
             }
             switch (tag) {
                 case CellTag::sparse8:
-                    add_sparse8(block, cell, lanes, 1);
-                    break;
-                case CellTag::bitmap8:
-                case CellTag::bitmap16:
-                    add_bitmap(block, tag, cell, lanes);
+                    add_sparse(block, cell, lanes, 1);
                     break;
                 case CellTag::dense8:
                     add_dense8(cell, lanes);
                     break;
-                case CellTag::dense16:
-                case CellTag::dense32f:
-                    wide_.push_back({cell, tag, listed.segment});
+                case CellTag::bitmap8:
+                    add_bitmap8(cell, lanes);
                     break;
-                default:  // lists hold no empty cells
+                default:
+                    wide_.push_back({cell, tag, listed.segment});
                     break;
             }
         }
-        for (const CellTag tag : {CellTag::dense16, CellTag::dense32f}) {
+        for (const bool floats : {false, true}) {
             for (const ListedCell& listed : wide_) {
-                if (listed.tag == tag) {
-                    transport::DecodedCell values;
-                    transport::decode_cell(tag, listed.cell, values);
-                    add_dense(wave_.lanes(listed.segment),
-                              [&values](std::size_t slot) { return values[slot]; });
+                if ((listed.tag == CellTag::dense32f) == floats) {
+                    add_wide(listed);
                 }
             }
         }
     }
 
-    void add_sparse8(std::uint32_t block,
-                     const std::uint8_t* cell,
-                     const Wave::Lanes& lanes,
-                     float scale) {
+    const std::uint8_t* add_sparse(std::uint32_t block,
+                                   const std::uint8_t* cell,
+                                   const Wave::Lanes& lanes,
+                                   float scale) {
         const std::size_t count = cell[0];
         const std::uint8_t* slots = cell + 1;
         const std::uint8_t* values = slots + count;
-        LaneSums& sums = packed_[block];
+        LaneSums& sums = sparse_[block];
         with_active_lanes(lanes.weights, lanes.active, lanes.active_count, scale,
                           [&](const auto& active) HWY_ATTR {
                               for (std::size_t i = 0; i < count; ++i) {
@@ -238,52 +230,44 @@ class Workspace {
                                              sums.slot(slots[i], stride_));
                               }
                           });
+        return values + count;
     }
 
-    void add_bitmap(std::uint32_t block,
-                    CellTag tag,
-                    const std::uint8_t* cell,
-                    const Wave::Lanes& lanes) {
-        const std::uint8_t* packed = cell + transport::kBitmapBytes;
-        LaneSums& sums = packed_[block];
-        sums.touch_rows(rows_of_bitmap(cell));
-        with_active_lanes(
-            lanes.weights, lanes.active, lanes.active_count, 1,
-            [&](const auto& active) HWY_ATTR {
-                if (tag == CellTag::bitmap8) {
-                    for_each_value(cell, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
-                        active.add(kFloatFromByte[packed[rank]], sums.slot(slot, stride_));
-                    });
-                } else {
-                    for_each_value(cell, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
-                        std::int16_t value = 0;
-                        std::memcpy(&value, packed + sizeof(value) * rank, sizeof(value));
-                        active.add(value, sums.slot(slot, stride_));
-                    });
-                }
-            });
-    }
-
-    // Many are zero, and to pass a value over is cheaper than to add it to so many lanes.
+    // Many values are zero, and to pass one over is cheaper than to add it to so many lanes.
     void add_dense8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
         const auto occupied = occupancy(cell);
-        dense_.touch_rows(rows_of_bitmap(occupied.data()));
+        values_.touch_rows(rows_of_bitmap(occupied.data()));
         with_active_lanes(
             lanes.weights, lanes.active, lanes.active_count, 1,
             [&](const auto& active) HWY_ATTR {
                 for_each_value(occupied.data(), [&](std::size_t slot, std::size_t) HWY_ATTR {
-                    active.add(kFloatFromByte[cell[slot]], dense_.slot(slot, stride_));
+                    active.add(kFloatFromByte[cell[slot]], values_.slot(slot, stride_));
                 });
             });
     }
 
-    template <typename ValueAt>
-    void add_dense(const Wave::Lanes& lanes, const ValueAt& value_at) {
-        dense_.touch_rows(kAllRows);
+    void add_bitmap8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
+        values_.touch_rows(rows_of_bitmap(cell));
+        const std::uint8_t* packed = cell + transport::kBitmapBytes;
+        with_active_lanes(
+            lanes.weights, lanes.active, lanes.active_count, 1,
+            [&](const auto& active) HWY_ATTR {
+                for_each_value(cell, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
+                    active.add(kFloatFromByte[packed[rank]], values_.slot(slot, stride_));
+                });
+            });
+    }
+
+    // Rare: decoded as the specification does.
+    void add_wide(const ListedCell& listed) {
+        transport::DecodedCell values;
+        transport::decode_cell(listed.tag, listed.cell, values);
+        const Wave::Lanes& lanes = wave_.lanes(listed.segment);
+        values_.touch_rows(kAllRows);
         with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
                           [&](const auto& active) HWY_ATTR {
                               for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-                                  active.add(value_at(slot), dense_.slot(slot, stride_));
+                                  active.add(values[slot], values_.slot(slot, stride_));
                               }
                           });
     }
@@ -293,8 +277,8 @@ class Workspace {
     Wave wave_;
     Lists lists_;
     std::vector<ListedCell> wide_;
-    LaneSums dense_;
-    std::array<LaneSums, transport::kMaxBlocksPerShard> packed_;
+    LaneSums values_;
+    std::array<LaneSums, transport::kMaxBlocksPerShard> sparse_;
 };
 
 }  // namespace

@@ -12,21 +12,23 @@ using transport::DecodedCell;
 using transport::kBlockSize;
 using transport::kColours;
 
-enum class CellKind : std::uint8_t { empty, dense8, dense16, floats, packed };
+enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, sparse };
 
 // Of the low part, if the cell is split.
 CellKind kind_of(CellTag tag) {
     switch (transport::is_split(tag) ? transport::low_tag(tag) : tag) {
+        case CellTag::empty:
+            return CellKind::empty;
         case CellTag::dense8:
-            return CellKind::dense8;
+        case CellTag::bitmap8:
+            return CellKind::bits8;
         case CellTag::dense16:
-            return CellKind::dense16;
+        case CellTag::bitmap16:
+            return CellKind::bits16;
         case CellTag::dense32f:
             return CellKind::floats;
         case CellTag::sparse8:
-        case CellTag::bitmap8:
-        case CellTag::bitmap16:
-            return CellKind::packed;
+            return CellKind::sparse;
         default:
             return CellKind::empty;
     }
@@ -61,7 +63,7 @@ bool add_cells(std::span<const WeightedSegment> segments,
         DecodedCell values;
         if (transport::is_split(tag)) {
             const std::uint8_t* low = transport::decode_cell(CellTag::sparse8, cell, values);
-            if (kind == CellKind::packed) {
+            if (kind == CellKind::sparse) {
                 add_values(values, segments[s].weights, transport::kHighPart, sums);
                 any = true;
             }
@@ -102,8 +104,7 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
             const auto group_cells = std::span(cells).subspan(first, group.size());
             BlockSums sums{};
             bool any = false;
-            for (const CellKind kind :
-                 {CellKind::dense8, CellKind::dense16, CellKind::floats}) {
+            for (const CellKind kind : {CellKind::bits8, CellKind::bits16, CellKind::floats}) {
                 any = add_cells(group, group_cells, block, kind, sums) || any;
             }
             if (any) {
@@ -112,7 +113,7 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
             first += group.size();
         }
         BlockSums sums{};
-        if (add_cells(segments, cells, block, CellKind::packed, sums)) {
+        if (add_cells(segments, cells, block, CellKind::sparse, sums)) {
             add_to_targets(sums, block, targets);
         }
         for (std::size_t s = 0; s < segments.size(); ++s) {
