@@ -154,8 +154,8 @@ TEST(ShProjection, ComesBackFromItsOwnFunctions) {
     EXPECT_LT(last_error, 0.02);
 }
 
-// The energy of a band does not depend on where the light stands, but for what means over texels
-// take from it.
+// The energy of a band does not depend on where the light stands, but for what means over
+// texels take from it.
 TEST(ShProjection, BandEnergyIsRotationInvariant) {
     constexpr std::uint32_t kOrder = 8;
     constexpr std::uint32_t kN = 32;

@@ -16,7 +16,8 @@ constexpr std::uint32_t kFace = 16;
 // A lighting that has followed one light for some images and is then asked for another.
 class SelectorTest : public testing::TestWithParam<std::pair<std::uint32_t, std::uint64_t>> {
   protected:
-    SelectorTest() : scene_({.face_resolution = kFace}), lighting_(*scene_.scene()) {
+    SelectorTest()
+        : scene_({.light_basis = basis::LightBasis::haar(kFace)}), lighting_(*scene_.scene()) {
         const auto [terms, seed] = GetParam();
         budget_.columns = terms;
         lighting_.set_target(test::random_lighting(kFace, seed));
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(TermsAndSeeds,
                                          std::pair(5000U, 6ULL)));
 
 TEST(BandSelector, AtRestNothingIsReset) {
-    const engine::TinyScene scene({.face_resolution = kFace});
+    const engine::TinyScene scene({.light_basis = basis::LightBasis::haar(kFace)});
     engine::Lighting lighting(*scene.scene());
     lighting.set_target(test::random_lighting(kFace, 1));
     lighting.apply_all();
