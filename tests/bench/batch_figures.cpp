@@ -2,8 +2,8 @@
 #include "server/engine/session.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
-#include "tests/bench/timing.h"
 #include "tests/bench/workbench.h"
+#include "tests/support/timing.h"
 
 #include <algorithm>
 #include <memory>
@@ -88,15 +88,16 @@ struct Gain {
     std::vector<double> alone;
     std::vector<double> together;
 
-    [[nodiscard]] double ratio() const { return median_ratio(alone, together); }
+    [[nodiscard]] double ratio() const { return test::median_ratio(alone, together); }
     [[nodiscard]] nlohmann::json milliseconds() const {
-        return {{"alone_ms", 1e3 * median(alone)}, {"together_ms", 1e3 * median(together)}};
+        return {{"alone_ms", 1e3 * test::median(alone)},
+                {"together_ms", 1e3 * test::median(together)}};
     }
 };
 
 template <typename Work>
 double timed(const Work& work) {
-    const Stopwatch stopwatch;
+    const test::Stopwatch stopwatch;
     work();
     return stopwatch.seconds();
 }
@@ -145,7 +146,7 @@ void measure(Workbench& workbench, Results& results) {
     const auto scene = workbench.scene();
     Artists alone(scene);
     Artists together(scene);
-    with_threads(Workbench::thread_counts().back(), [&] {
+    test::with_threads(Workbench::thread_counts().back(), [&] {
         const Gain resting = rest(alone, together, workbench.quick() ? 1 : 3);
         const Gain dragging = drag(alone, together, workbench.quick() ? 3 : 30);
         results.set("batch_gain_resting", resting.ratio());

@@ -4,7 +4,7 @@
 #include "protocol/transport/cell_cost.h"
 #include "protocol/transport/transport.h"
 #include "server/engine/kernels/accumulate.h"
-#include "tests/bench/timing.h"
+#include "tests/support/timing.h"
 
 #include <fmt/format.h>
 
@@ -123,14 +123,14 @@ void measure(const transport::ShardReader& shard,
     std::vector<float> sums(std::size_t{blocks} * transport::kColours * transport::kBlockSize);
     for (std::size_t first = 0; first < segments[0].size(); first += kSegmentsAtOnce) {
         const std::size_t count = std::min(kSegmentsAtOnce, segments[0].size() - first);
-        std::vector<TimedVariant> variants;
+        std::vector<test::TimedVariant> variants;
         for (const auto& of_rate : segments) {
             variants.emplace_back([&](std::size_t /*round*/) {
                 engine::accumulate_segments(std::span(of_rate).subspan(first, count), blocks,
                                             {.sums = sums.data(), .total = nullptr});
             });
         }
-        const auto seconds = seconds_in_turn(variants, kRounds);
+        const auto seconds = test::seconds_in_turn(variants, kRounds);
         for (std::size_t i = 0; i < kRates.size(); ++i) {
             outcomes[i].seconds += *std::min_element(seconds[i].begin(), seconds[i].end());
         }
