@@ -16,8 +16,8 @@ double blend(double old, double newest) {
 }  // namespace
 
 void CostModel::record_columns(std::uint64_t bytes, double milliseconds) {
-    // Fewer bytes than this are all overhead and tell nothing of the rate.
-    constexpr std::uint64_t kTellingBytes = 64 * 1024;
+    // Fewer bytes than this are mostly overhead and tell little of the rate.
+    constexpr std::uint64_t kTellingBytes = 1 << 20U;
     if (bytes >= kTellingBytes) {
         const double newest = milliseconds * 1e6 / static_cast<double>(bytes);
         nanoseconds_per_byte_ = measured_ ? blend(nanoseconds_per_byte_, newest) : newest;
@@ -32,8 +32,9 @@ void CostModel::record_overhead(double milliseconds) {
 std::uint64_t CostModel::bytes_within(double milliseconds, std::size_t sessions) const {
     const auto count = static_cast<double>(sessions);
     const double rounds = std::max(1.0, count / tbb::this_task_arena::max_concurrency());
-    const double for_columns =
-        std::max(0.0, milliseconds - rounds * overhead_milliseconds_) / count;
+    const double choosing = rounds * overhead_milliseconds_;
+    // However dear it is to choose, as much time goes into what is chosen.
+    const double for_columns = std::max(milliseconds - choosing, choosing) / count;
     return static_cast<std::uint64_t>(for_columns * 1e6 / nanoseconds_per_byte_);
 }
 

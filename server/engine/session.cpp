@@ -118,10 +118,12 @@ Session::Intent Session::intend(const Share& share) {
 }
 
 const Plan& Session::next_plan(const SelectionBudget& budget) {
-    if (!lighting_is_new_) {
-        return planner_.go_on(lighting_, strategy_, budget);
-    }
     const Stopwatch stopwatch;
+    if (!lighting_is_new_) {
+        const Plan& plan = planner_.go_on(lighting_, strategy_, budget);
+        cost_.record_overhead(stopwatch.milliseconds());
+        return plan;
+    }
     lighting_is_new_ = false;
     if (estimates_are_stale_) {
         error_.set_approximation(lighting_.approximation());

@@ -103,7 +103,11 @@ Uncompensated add_without_end(const engine::Scene& scene,
         Lighting difference(shown.size());
         std::transform(wanted.begin(), wanted.end(), shown.begin(), difference.begin(),
                        std::minus<>());
-        engine::gather_columns(scene, difference, changes);
+        changes.clear();
+        for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
+            const auto of_band = engine::changes_from_nothing(scene, difference, band);
+            changes.insert(changes.end(), of_band.begin(), of_band.end());
+        }
         images.update(0, changes);
         shown = wanted;
     }

@@ -1,6 +1,7 @@
 #include "tests/stability/test_light.h"
 
 #include "protocol/basis/cubemap.h"
+#include "protocol/basis/cubemap_projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,10 @@
 namespace relume::stability {
 
 Lighting lighting_from_cubemap(const light::LightCubemap& cubemap) {
+    const auto haar =
+        basis::CubemapProjection::onto(basis::LightBasis::haar(cubemap.face_resolution));
     Lighting lighting;
-    light::lighting_coefficients(cubemap, lighting);
+    light::lighting_coefficients(cubemap, *haar, lighting);
     return lighting;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -33,21 +34,21 @@ namespace {
 using transport::CellTag;
 using transport::kBlockSize;
 
-// The groups of all members that are taken together: every segment once, with the weights of
-// all who take it.
+// Groups of all members that are taken together: every segment once, with the weights of all
+// who take it. A round is the next group of every member; a wave holds as many rounds as make
+// it worth while to go through the members' sums.
 class Wave {
   public:
-    static constexpr std::size_t kMaxSegments = kMaxBatchMembers * kMaxGroupSegments;
+    static constexpr std::size_t kMaxRound = kMaxBatchMembers * kMaxGroupSegments;
+    static constexpr std::size_t kEnough = 2048;  // segments
+    static constexpr std::size_t kMaxSegments = kEnough + kMaxRound;
 
-    // Takes the next group of every member; false when none has one.
+    // False when no member has anything left.
     bool fill(std::span<std::span<const WeightedSegment>> left) {
         segments_.clear();
         weights_.clear();
-        for (std::size_t m = 0; m < left.size(); ++m) {
-            groups_[m] = left[m].empty() ? left[m] : next_group(left[m]);
-            left[m] = left[m].subspan(groups_[m].size());
-        }
-        while (take_next(std::span(groups_).first(left.size()))) {
+        for (std::uint16_t round = 0; segments_.size() < kEnough && take_round(left, round);
+             ++round) {
         }
         return !segments_.empty();
     }
@@ -56,6 +57,7 @@ class Wave {
         LaneWeights weights{};
         std::array<std::uint8_t, kMaxVectors> active{};  // vectors with a weight, ascending
         std::uint8_t active_count = 0;
+        std::uint16_t round = 0;
     };
 
     [[nodiscard]] std::span<const transport::SegmentView> segments() const { return segments_; }
@@ -64,8 +66,25 @@ class Wave {
   private:
     using Groups = std::array<std::span<const WeightedSegment>, kMaxBatchMembers>;
 
+    // Those groups whose stretch comes first, so that members keep in step.
+    bool take_round(std::span<std::span<const WeightedSegment>> left, std::uint16_t round) {
+        auto stretch = std::numeric_limits<std::uint32_t>::max();
+        for (const auto& segments : left) {
+            stretch = segments.empty() ? stretch : std::min(stretch, segments.front().stretch);
+        }
+        for (std::size_t m = 0; m < left.size(); ++m) {
+            const bool takes_part = !left[m].empty() && left[m].front().stretch == stretch;
+            groups_[m] = takes_part ? next_group(left[m]) : left[m].first(0);
+            left[m] = left[m].subspan(groups_[m].size());
+        }
+        const std::size_t before = segments_.size();
+        while (take_next(std::span(groups_).first(left.size()), round)) {
+        }
+        return segments_.size() > before;
+    }
+
     // The first in memory of what is left of the groups.
-    bool take_next(std::span<std::span<const WeightedSegment>> groups) {
+    bool take_next(std::span<std::span<const WeightedSegment>> groups, std::uint16_t round) {
         const std::uint8_t* first = nullptr;
         for (const auto& group : groups) {
             if (!group.empty() && (first == nullptr || group.front().segment.tags < first)) {
@@ -76,6 +95,7 @@ class Wave {
             return false;
         }
         Lanes& lanes = weights_.emplace_back();
+        lanes.round = round;
         for (std::size_t m = 0; m < groups.size(); ++m) {
             if (groups[m].empty() || groups[m].front().segment.tags != first) {
                 continue;
@@ -164,13 +184,15 @@ class Workspace {
         while (wave_.fill(std::span(left).first(members.size()))) {
             const auto segments = wave_.segments();
             lists_.fill(
-                segments.size(), [&](std::size_t s) { return segments[s]; }, block_count);
+                segments.size(), [&](std::size_t s) { return segments[s]; }, block_count,
+                [&](std::size_t s, std::uint32_t block, const std::uint8_t* cell, float scale)
+                    HWY_ATTR { add_sparse(block, cell, wave_.lanes(s), scale); });
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(block);
-                values_.take(members, block, stride_);
             }
         }
         for (std::uint32_t block = 0; block < block_count; ++block) {
+            values_[block].take(members, block, stride_);
             sparse_[block].take(members, block, stride_);
         }
     }
@@ -178,98 +200,103 @@ class Workspace {
   private:
     using Lists = CellLists<Wave::kMaxSegments>;
 
-    // In the order of the contract: sparse values to their own sums; of the others first those
-    // of 8 bits, then of 16, then floats.
+    // In the order of the contract: of each round first the cells of 8 bits, then of 16, then
+    // floats.
     void take_cells(std::uint32_t block) {
-        wide_.clear();
+        std::uint16_t round = 0;
         for (const ListedCell& listed : lists_.of_block(block)) {
             const Wave::Lanes& lanes = wave_.lanes(listed.segment);
-            const std::uint8_t* cell = listed.cell;
-            CellTag tag = listed.tag;
-            if (transport::is_split(tag)) {
-                cell = add_sparse(block, cell, lanes, transport::kHighPart);
-                tag = transport::low_tag(tag);
+            if (lanes.round != round) {
+                add_wide(block);
+                round = lanes.round;
             }
-            switch (tag) {
-                case CellTag::sparse8:
-                    add_sparse(block, cell, lanes, 1);
-                    break;
+            switch (listed.tag) {
                 case CellTag::dense8:
-                    add_dense8(cell, lanes);
+                    add_dense8(block, listed.cell, lanes);
                     break;
                 case CellTag::bitmap8:
-                    add_bitmap8(cell, lanes);
+                    add_bitmap8(block, listed.cell, lanes);
                     break;
                 default:
-                    wide_.push_back({cell, tag, listed.segment});
+                    wide_.push_back(listed);
                     break;
             }
         }
-        for (const bool floats : {false, true}) {
-            for (const ListedCell& listed : wide_) {
-                if ((listed.tag == CellTag::dense32f) == floats) {
-                    add_wide(listed);
-                }
-            }
-        }
+        add_wide(block);
     }
 
-    const std::uint8_t* add_sparse(std::uint32_t block,
-                                   const std::uint8_t* cell,
-                                   const Wave::Lanes& lanes,
-                                   float scale) {
+    HWY_INLINE void add_sparse(std::uint32_t block,
+                               const std::uint8_t* cell,
+                               const Wave::Lanes& lanes,
+                               float scale) {
         const std::size_t count = cell[0];
         const std::uint8_t* slots = cell + 1;
         const std::uint8_t* values = slots + count;
         LaneSums& sums = sparse_[block];
+        const std::size_t stride = stride_;
         with_active_lanes(lanes.weights, lanes.active, lanes.active_count, scale,
                           [&](const auto& active) HWY_ATTR {
                               for (std::size_t i = 0; i < count; ++i) {
                                   sums.touch_row_of(slots[i]);
                                   active.add(kFloatFromByte[values[i]],
-                                             sums.slot(slots[i], stride_));
+                                             sums.slot(slots[i], stride));
                               }
                           });
-        return values + count;
     }
 
     // Many values are zero, and to pass one over is cheaper than to add it to so many lanes.
-    void add_dense8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
+    void add_dense8(std::uint32_t block, const std::uint8_t* cell, const Wave::Lanes& lanes) {
         const auto occupied = occupancy(cell);
-        values_.touch_rows(rows_of_bitmap(occupied.data()));
-        with_active_lanes(
-            lanes.weights, lanes.active, lanes.active_count, 1,
-            [&](const auto& active) HWY_ATTR {
-                for_each_value(occupied.data(), [&](std::size_t slot, std::size_t) HWY_ATTR {
-                    active.add(kFloatFromByte[cell[slot]], values_.slot(slot, stride_));
-                });
-            });
+        add_occupied(block, occupied.data(), lanes, [cell](std::size_t slot, std::size_t) {
+            return kFloatFromByte[cell[slot]];
+        });
     }
 
-    void add_bitmap8(const std::uint8_t* cell, const Wave::Lanes& lanes) {
-        values_.touch_rows(rows_of_bitmap(cell));
+    void add_bitmap8(std::uint32_t block, const std::uint8_t* cell, const Wave::Lanes& lanes) {
         const std::uint8_t* packed = cell + transport::kBitmapBytes;
-        with_active_lanes(
-            lanes.weights, lanes.active, lanes.active_count, 1,
-            [&](const auto& active) HWY_ATTR {
-                for_each_value(cell, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
-                    active.add(kFloatFromByte[packed[rank]], values_.slot(slot, stride_));
-                });
-            });
+        add_occupied(block, cell, lanes, [packed](std::size_t, std::size_t rank) {
+            return kFloatFromByte[packed[rank]];
+        });
     }
 
-    // Rare: decoded as the specification does.
-    void add_wide(const ListedCell& listed) {
-        transport::DecodedCell values;
-        transport::decode_cell(listed.tag, listed.cell, values);
-        const Wave::Lanes& lanes = wave_.lanes(listed.segment);
-        values_.touch_rows(kAllRows);
+    template <typename ValueAt>
+    HWY_INLINE void add_occupied(std::uint32_t block,
+                                 const std::uint8_t* bitmap,
+                                 const Wave::Lanes& lanes,
+                                 const ValueAt& value_at) {
+        LaneSums& sums = values_[block];
+        const std::size_t stride = stride_;
+        sums.touch_rows(rows_of_bitmap(bitmap));
         with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
                           [&](const auto& active) HWY_ATTR {
-                              for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-                                  active.add(values[slot], values_.slot(slot, stride_));
-                              }
+                              for_each_value(
+                                  bitmap, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
+                                      active.add(value_at(slot, rank), sums.slot(slot, stride));
+                                  });
                           });
+    }
+
+    // What was put aside of a round: rare, and decoded as the specification does.
+    void add_wide(std::uint32_t block) {
+        for (const bool floats : {false, true}) {
+            for (const ListedCell& listed : wide_) {
+                if ((listed.tag == CellTag::dense32f) != floats) {
+                    continue;
+                }
+                transport::DecodedCell values;
+                transport::decode_cell(listed.tag, listed.cell, values);
+                const Wave::Lanes& lanes = wave_.lanes(listed.segment);
+                LaneSums& sums = values_[block];
+                sums.touch_rows(kAllRows);
+                with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
+                                  [&](const auto& active) HWY_ATTR {
+                                      for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+                                          active.add(values[slot], sums.slot(slot, stride_));
+                                      }
+                                  });
+            }
+        }
+        wide_.clear();
     }
 
     std::span<const BatchMember> members_;
@@ -277,7 +304,7 @@ class Workspace {
     Wave wave_;
     Lists lists_;
     std::vector<ListedCell> wide_;
-    LaneSums values_;
+    std::array<LaneSums, transport::kMaxBlocksPerShard> values_;
     std::array<LaneSums, transport::kMaxBlocksPerShard> sparse_;
 };
 

@@ -99,22 +99,22 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
         cells.push_back(segment.segment.cells);
     }
     for (std::uint32_t block = 0; block < block_count; ++block) {
+        BlockSums sums{};
+        bool any = false;
         for (std::size_t first = 0; first < segments.size();) {
             const auto group = next_group(segments.subspan(first));
             const auto group_cells = std::span(cells).subspan(first, group.size());
-            BlockSums sums{};
-            bool any = false;
             for (const CellKind kind : {CellKind::bits8, CellKind::bits16, CellKind::floats}) {
                 any = add_cells(group, group_cells, block, kind, sums) || any;
             }
-            if (any) {
-                add_to_targets(sums, block, targets);
-            }
             first += group.size();
         }
-        BlockSums sums{};
-        if (add_cells(segments, cells, block, CellKind::sparse, sums)) {
+        if (any) {
             add_to_targets(sums, block, targets);
+        }
+        BlockSums sparse{};
+        if (add_cells(segments, cells, block, CellKind::sparse, sparse)) {
+            add_to_targets(sparse, block, targets);
         }
         for (std::size_t s = 0; s < segments.size(); ++s) {
             cells[s] += transport::cell_bytes(segments[s].segment.tag(block), cells[s]);

@@ -93,6 +93,22 @@ struct Registers {
         }
     }
 
+    HWY_INLINE void load(D df, const float* HWY_RESTRICT sums) {
+        for (std::size_t v = 0; v < kVectors; ++v, sums += hn::Lanes(df)) {
+            red[v] = hn::LoadU(df, sums);
+            green[v] = hn::LoadU(df, sums + kBlockSize);
+            blue[v] = hn::LoadU(df, sums + 2 * kBlockSize);
+        }
+    }
+
+    HWY_INLINE void store(D df, float* HWY_RESTRICT sums) const {
+        for (std::size_t v = 0; v < kVectors; ++v, sums += hn::Lanes(df)) {
+            hn::StoreU(red[v], df, sums);
+            hn::StoreU(green[v], df, sums + kBlockSize);
+            hn::StoreU(blue[v], df, sums + 2 * kBlockSize);
+        }
+    }
+
     template <typename Value>
     HWY_INLINE void add(D df, const CellValues<Value>& cells, std::size_t slot) {
         for (std::size_t s = 0; s < cells.count; ++s) {
@@ -121,43 +137,99 @@ struct Registers {
 
 // The cells of one block that are summed together; 8-bit ones by quarters, so that those that
 // hold only zeroes, as the finest of a block's coefficients often do, cost nothing.
-struct BlockValues {
+class BlockValues {
+  public:
     static constexpr std::size_t kQuarters = 4;
     static constexpr std::size_t kQuarterSlots = kBlockSize / kQuarters;
 
     std::array<CellValues<std::int8_t>, kQuarters> bits8;
     CellValues<std::int16_t> bits16;
     CellValues<float> floats;
-    bool any = false;
 
     void clear() {
         for (auto& quarter : bits8) {
             quarter.count = 0;
         }
         bits16.count = floats.count = 0;
-        any = false;
     }
 
     // Sums pass through registers once for all cells.
     void add_to(float* HWY_RESTRICT sums, float* HWY_RESTRICT total) const {
         const hn::CappedTag<float, 16> df;
-        Registers<decltype(df)> registers;
-        const std::size_t slots = Registers<decltype(df)>::kVectors * hn::Lanes(df);
-        for (std::size_t slot = 0; slot < kBlockSize; slot += slots) {
-            const std::size_t quarter = slot / kQuarterSlots;
-            if (bits8[quarter].count + bits16.count + floats.count == 0) {
-                continue;
-            }
+        for_each_part([&](auto& registers, std::size_t slot) HWY_ATTR {
             registers.clear(df);
-            registers.add(df, bits8[quarter], slot % kQuarterSlots);
-            registers.add(df, bits16, slot);
-            registers.add(df, floats, slot);
+            add_part(registers, slot);
             registers.add_to(df, sums + slot);
             if (total != nullptr) {
                 registers.add_to(df, total + slot);
             }
+        });
+    }
+
+    // The sums so far, [3][256], go on.
+    void go_on(float* HWY_RESTRICT sums) const {
+        const hn::CappedTag<float, 16> df;
+        for_each_part([&](auto& registers, std::size_t slot) HWY_ATTR {
+            registers.load(df, sums + slot);
+            add_part(registers, slot);
+            registers.store(df, sums + slot);
+        });
+    }
+
+  private:
+    using BlockRegisters = Registers<hn::CappedTag<float, 16>>;
+
+    template <typename Part>
+    HWY_INLINE void for_each_part(const Part& part) const {
+        const hn::CappedTag<float, 16> df;
+        BlockRegisters registers;
+        const std::size_t slots = BlockRegisters::kVectors * hn::Lanes(df);
+        for (std::size_t slot = 0; slot < kBlockSize; slot += slots) {
+            if (bits8[slot / kQuarterSlots].count + bits16.count + floats.count != 0) {
+                part(registers, slot);
+            }
         }
     }
+
+    HWY_INLINE void add_part(BlockRegisters& registers, std::size_t slot) const {
+        const hn::CappedTag<float, 16> df;
+        registers.add(df, bits8[slot / kQuarterSlots], slot % kQuarterSlots);
+        registers.add(df, bits16, slot);
+        registers.add(df, floats, slot);
+    }
+};
+
+// What a block's cells add up to group after group, [3][256], until there are no more.
+class GroupSums {
+  public:
+    void clear() { used_ = 0; }
+
+    void add(std::uint32_t block, const BlockValues& values) {
+        if (((used_ >> block) & 1U) == 0) {
+            used_ |= std::uint64_t{1} << block;
+            sums_[block].fill(0);
+        }
+        values.go_on(sums_[block].data());
+    }
+
+    void add_to(const SumTargets& targets) const {
+        const hn::CappedTag<float, 16> df;
+        for (std::uint64_t left = used_; left != 0; left &= left - 1) {
+            const auto block = static_cast<std::size_t>(std::countr_zero(left));
+            for (std::size_t i = 0; i < kSumsPerBlock; i += hn::Lanes(df)) {
+                const auto sum = hn::LoadU(df, &sums_[block][i]);
+                add_one(df, sum, targets.sums + block * kSumsPerBlock + i);
+                if (targets.total != nullptr) {
+                    add_one(df, sum, targets.total + block * kSumsPerBlock + i);
+                }
+            }
+        }
+    }
+
+  private:
+    alignas(
+        64) std::array<std::array<float, kSumsPerBlock>, transport::kMaxBlocksPerShard> sums_;
+    std::uint64_t used_ = 0;
 };
 
 // What sparse cells add up to, colours side by side so that a value is one addition; by block,
@@ -166,11 +238,10 @@ class SparseSums {
   public:
     void clear() { used_ = 0; }
 
-    // Returns the byte after the cell.
-    const std::uint8_t* add(std::uint32_t block,
-                            const std::uint8_t* cell,
-                            const ColourWeights& weights,
-                            float scale) {
+    HWY_INLINE void add(std::uint32_t block,
+                        const std::uint8_t* cell,
+                        const ColourWeights& weights,
+                        float scale) {
         const hn::FixedTag<float, 4> d4;
         float* HWY_RESTRICT sums = sums_[block].data();
         if (((used_ >> block) & 1U) == 0) {
@@ -187,7 +258,6 @@ class SparseSums {
             const auto value = hn::Set(d4, static_cast<float>(values[i]));
             hn::Store(hn::MulAdd(w, value, hn::Load(d4, slot)), d4, slot);
         }
-        return slots + 2 * count;
     }
 
     void add_to(const SumTargets& targets) const {
@@ -225,41 +295,41 @@ class Workspace {
                     std::uint32_t block_count,
                     const SumTargets& targets) {
         sparse_.clear();
+        groups_.clear();
+        const bool only_one_group = next_group(segments).size() == segments.size();
         while (!segments.empty()) {
             const auto group = next_group(segments);
             lists_.fill(
-                group.size(), [&](std::size_t s) { return group[s].segment; }, block_count);
+                group.size(), [&](std::size_t s) { return group[s].segment; }, block_count,
+                [&](std::size_t s, std::uint32_t block, const std::uint8_t* cell, float scale)
+                    HWY_ATTR { sparse_.add(block, cell, group[s].weights, scale); });
             for (std::uint32_t block = 0; block < block_count; ++block) {
+                if (lists_.of_block(block).empty()) {
+                    continue;
+                }
                 take_cells(group, block);
-                if (values_.any) {
+                if (only_one_group) {
                     const std::size_t first = std::size_t{block} * kSumsPerBlock;
                     values_.add_to(targets.sums + first,
                                    targets.total != nullptr ? targets.total + first : nullptr);
+                } else {
+                    groups_.add(block, values_);
                 }
             }
             segments = segments.subspan(group.size());
         }
+        groups_.add_to(targets);
         sparse_.add_to(targets);
     }
 
   private:
-    // Sparse values are added to their sums, the others go into values_.
     void take_cells(std::span<const WeightedSegment> group, std::uint32_t block) {
         values_.clear();
         std::size_t expanded8 = 0;
         for (const ListedCell& listed : lists_.of_block(block)) {
             const ColourWeights& weights = group[listed.segment].weights;
             const std::uint8_t* cell = listed.cell;
-            CellTag tag = listed.tag;
-            if (transport::is_split(tag)) {
-                cell = sparse_.add(block, cell, weights, transport::kHighPart);
-                tag = transport::low_tag(tag);
-            }
-            values_.any = values_.any || tag != CellTag::sparse8;
-            switch (tag) {
-                case CellTag::sparse8:
-                    sparse_.add(block, cell, weights, 1);
-                    break;
+            switch (listed.tag) {
                 case CellTag::dense8:
                     for (std::size_t q = 0; q < BlockValues::kQuarters; ++q) {
                         values_.bits8[q].add(reinterpret_cast<const std::int8_t*>(cell) +
@@ -292,11 +362,11 @@ class Workspace {
                 }
                 case CellTag::dense32f: {
                     transport::DecodedCell& values = decoded_[values_.floats.count];
-                    transport::decode_cell(tag, cell, values);
+                    transport::decode_cell(listed.tag, cell, values);
                     values_.floats.add(values.data(), weights);
                     break;
                 }
-                default:  // lists hold no empty cells
+                default:  // lists hold no others
                     break;
             }
         }
@@ -305,6 +375,7 @@ class Workspace {
     const BitmapExpansion expansion_ = best_expansion();
     CellLists<kMaxGroupSegments> lists_;
     BlockValues values_;
+    GroupSums groups_;
     SparseSums sparse_;
     // In the order in which they go into values_.
     std::array<std::array<std::int8_t, kBlockSize>, kMaxGroupSegments> expanded8_;

@@ -1,5 +1,6 @@
-// The cells of a group of segments, sorted by block. Compiled once per instruction set, as
-// Highway's own "-inl" headers are: counting bits is one instruction on most.
+// The cells of a group of segments, sorted by block, but for the sparse ones. Compiled once per
+// instruction set, as Highway's own "-inl" headers are: counting bits is one instruction on
+// most.
 #if defined(RELUME_CELL_LISTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELUME_CELL_LISTS_INL_H
 #undef RELUME_CELL_LISTS_INL_H
@@ -26,16 +27,22 @@ struct ListedCell {
 };
 
 // Segments, at most kMaxSegments, are walked once, in the order of memory, each cell asked for
-// a while before it is passed; the blocks' lists then find it in the cache.
+// a while before it is passed; the blocks' lists then find it in the cache. Sparse cells, and
+// the sparse parts of split ones, are not listed but handed out on the way: most hold so little
+// that to list them would cost more than to add them.
 template <std::size_t kMaxSegments>
 class CellLists {
   public:
-    // Replaces what the lists hold by the cells of `count` segments.
-    template <typename SegmentAt>
-    void fill(std::size_t count, const SegmentAt& segment_at, std::uint32_t block_count) {
+    // Replaces what the lists hold by the cells of `count` segments; calls
+    // on_sparse(segment, block, cell, scale), the value being scale times what the cell holds.
+    template <typename SegmentAt, typename OnSparse>
+    HWY_INLINE void fill(std::size_t count,
+                         const SegmentAt& segment_at,
+                         std::uint32_t block_count,
+                         const OnSparse& on_sparse) {
         counts_.fill(0);
         for (std::size_t s = 0; s < count; ++s) {
-            walk(segment_at(s), static_cast<std::uint16_t>(s), block_count);
+            walk(segment_at(s), static_cast<std::uint16_t>(s), block_count, on_sparse);
         }
     }
 
@@ -50,9 +57,11 @@ class CellLists {
     // The next segment is as a rule the next in memory.
     static constexpr std::size_t kPrefetchBytes = 1024;
 
-    void walk(const transport::SegmentView& segment,
-              std::uint16_t number,
-              std::uint32_t block_count) {
+    template <typename OnSparse>
+    HWY_INLINE void walk(const transport::SegmentView& segment,
+                         std::uint16_t number,
+                         std::uint32_t block_count,
+                         const OnSparse& on_sparse) {
         const std::uint8_t* cell = segment.cells;
         const std::uint8_t* ahead = cell;
         for (std::uint32_t first = 0; first < block_count; first += kTagsPerWord) {
@@ -63,10 +72,20 @@ class CellLists {
             present = (present | (present >> 2U)) & 0x1111'1111'1111'1111U;
             for (; present != 0; present &= present - 1) {
                 const auto bit = static_cast<unsigned>(std::countr_zero(present));
-                const auto tag = static_cast<transport::CellTag>((tags >> bit) & 0xFU);
+                auto tag = static_cast<transport::CellTag>((tags >> bit) & 0xFU);
                 const std::uint32_t block = first + bit / 4;
-                cells_[block][counts_[block]++] = {cell, tag, number};
-                cell += size_of(tag, cell);
+                if (transport::is_split(tag)) {
+                    on_sparse(number, block, cell, static_cast<float>(transport::kHighPart));
+                    cell += sparse_size(cell);
+                    tag = transport::low_tag(tag);
+                }
+                if (tag == transport::CellTag::sparse8) {
+                    on_sparse(number, block, cell, 1.0F);
+                    cell += sparse_size(cell);
+                } else {
+                    cells_[block][counts_[block]++] = {cell, tag, number};
+                    cell += size_of(tag, cell);
+                }
                 for (; ahead < cell + kPrefetchBytes; ahead += kCacheLine) {
                     __builtin_prefetch(ahead);
                 }
@@ -74,21 +93,17 @@ class CellLists {
         }
     }
 
+    static std::size_t sparse_size(const std::uint8_t* cell) {
+        return 1 + 2 * std::size_t{cell[0]};
+    }
+
     // As transport::cell_bytes, for the encodings there are many of.
     static std::size_t size_of(transport::CellTag tag, const std::uint8_t* cell) {
         switch (tag) {
             case transport::CellTag::dense8:
                 return transport::kBlockSize;
-            case transport::CellTag::sparse8:
-                return 1 + 2 * std::size_t{cell[0]};
             case transport::CellTag::bitmap8:
                 return transport::kBitmapBytes + population(cell);
-            case transport::CellTag::split_dense8:
-            case transport::CellTag::split_bitmap8:
-            case transport::CellTag::split_sparse8: {
-                const std::size_t high = 1 + 2 * std::size_t{cell[0]};
-                return high + size_of(transport::low_tag(tag), cell + high);
-            }
             default:
                 return transport::cell_bytes(tag, cell);
         }
