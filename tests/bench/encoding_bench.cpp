@@ -142,7 +142,8 @@ void run(const char* directory) {
     const auto& shards = transport->shards();
     std::array<Outcome, kRates.size()> outcomes{};
     // The middle of the image stands for all of it.
-    measure(shards[shards.size() / 2], transport->manifest().face_resolution, outcomes);
+    measure(shards[shards.size() / 2], transport->manifest().light_basis.face_resolution(),
+            outcomes);
     const Outcome& by_bytes = outcomes.back();
     fmt::print("{:>10} {:>12} {:>8} {:>8}\n", "ns/byte", "bytes", "bytes ÷", "time ÷");
     for (std::size_t i = 0; i < kRates.size(); ++i) {
