@@ -21,6 +21,10 @@ constexpr std::uint64_t kImagesForFullProduct = 4;
 // And where what is left cannot be seen, so that nobody waits for it in small steps.
 constexpr double kUnseenError = 1e-3;
 
+// And where so many sessions rest together: they have all of the transport in common then, and
+// little of what each would choose.
+constexpr std::size_t kCompanyForFullProduct = 8;
+
 class Stopwatch {
   public:
     [[nodiscard]] double milliseconds() const {
@@ -202,7 +206,8 @@ std::uint64_t Session::product_bytes_per_image(const Share& share) const {
 }
 
 bool Session::full_product_is_next(const Share& share) const {
-    if (full_product_.running() || remaining_ == 0 || error_.relative_l2() <= kUnseenError) {
+    if (full_product_.running() || remaining_ == 0 ||
+        share.sessions >= kCompanyForFullProduct || error_.relative_l2() <= kUnseenError) {
         return true;
     }
     return scene_->transport().total_bytes() <=

@@ -245,6 +245,7 @@ void Room::perform(std::span<Turn> turns) {
         turn.attempt([&] {
             tbb::this_task_arena::isolate([&] {
                 auto problems = std::move(turn.result.problems);
+                turn.slice.encoder_is_free = turn.room->encoder_is_free();
                 turn.result = turn.room->images_.end(turn.slice);
                 turn.result.problems = std::move(problems);
             });
@@ -275,12 +276,16 @@ std::optional<RoomSlice> Room::begin_slice() {
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
-    slice.encoder_is_free = !encoding_;
     slice.encode_ms = encode_ms_;
     slice.viewer_wants_moving =
         std::any_of(viewers_.begin(), viewers_.end(),
                     [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
     return slice;
+}
+
+bool Room::encoder_is_free() const {
+    const std::lock_guard lock(mutex_);
+    return !encoding_;
 }
 
 void Room::end_slice(const RoomSlice& slice, SliceResult result) {

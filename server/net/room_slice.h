@@ -24,7 +24,7 @@ struct RoomSlice {
     bool viewer_wants_moving = false;
     bool first_image_due = false;  // of an edit
     bool settled_image_due = false;
-    bool encoder_is_free = true;
+    bool encoder_is_free = true;  // at the slice's end
     double encode_ms = 0;  // what a JPEG has been taking
 };
 
