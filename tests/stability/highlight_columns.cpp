@@ -92,7 +92,7 @@ test::LinearImage by_column_range(const scene::Scene& scene,
     }
     basis::haar_forward_cubemap(parameters.face_resolution, coefficients);
     test::LinearImage image{parameters.width, parameters.height, {}};
-    image.pixels.resize(std::size_t{parameters.width} * parameters.height);
+    image.pixels.resize(std::size_t{parameters.width} * parameters.height, Imath::V3d(0));
     for (std::size_t j = 0; j < coefficients.size(); ++j) {
         if (coefficients[j] == 0) {
             continue;
