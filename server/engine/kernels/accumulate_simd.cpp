@@ -42,7 +42,6 @@ class Workspace {
     void accumulate(std::span<const WeightedSegment> segments,
                     std::uint32_t block_count,
                     const SumTargets& targets) {
-        sparse_.clear();
         groups_.clear();
         const bool only_one_group = next_group(segments).size() == segments.size();
         while (!segments.empty()) {
@@ -67,7 +66,7 @@ class Workspace {
             segments = segments.subspan(group.size());
         }
         groups_.add_to(targets);
-        sparse_.add_to(targets);
+        sparse_.take(block_count, targets);
     }
 
   private:

@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -25,48 +26,56 @@ namespace hn = hwy::HWY_NAMESPACE;
 using transport::kBlockSize;
 using transport::kColours;
 
-// What sparse cells add up to, colours side by side so that a value is one addition; by block,
-// zero until the block's first sparse cell.
+// What sparse cells add up to, colours side by side so that a value is one addition; by block.
+// Most cells hold a few of the coarsest coefficients: rows of 16 slots in which anything was
+// added are remembered, and nothing is done for the others.
 class SparseSums {
   public:
-    void clear() { used_ = 0; }
-
     HWY_INLINE void add(std::uint32_t block,
                         const std::uint8_t* cell,
                         const ColourWeights& weights,
                         float scale) {
         const hn::FixedTag<float, 4> d4;
         float* HWY_RESTRICT sums = sums_[block].data();
-        if (((used_ >> block) & 1U) == 0) {
-            used_ |= std::uint64_t{1} << block;
-            sums_[block].fill(0);
-        }
         const std::array<float, 4> padded{weights[0], weights[1], weights[2], 0};
         const auto w = hn::Mul(hn::Set(d4, scale), hn::LoadU(d4, padded.data()));
         const std::size_t count = cell[0];
         const std::uint8_t* slots = cell + 1;
         const auto* values = reinterpret_cast<const std::int8_t*>(slots + count);
+        std::uint32_t rows = 0;
         for (std::size_t i = 0; i < count; ++i) {
+            rows |= std::uint32_t{1} << (slots[i] / kRowSlots);
             float* slot = sums + std::size_t{4} * slots[i];
             const auto value = hn::Set(d4, static_cast<float>(values[i]));
             hn::Store(hn::MulAdd(w, value, hn::Load(d4, slot)), d4, slot);
         }
+        touched_rows_[block] |= rows;
     }
 
-    void add_to(const SumTargets& targets) const {
-        for (std::uint64_t left = used_; left != 0; left &= left - 1) {
-            const auto block = static_cast<std::size_t>(std::countr_zero(left));
-            add_block(sums_[block].data(), targets.sums + block * kSumsPerBlock);
-            if (targets.total != nullptr) {
-                add_block(sums_[block].data(), targets.total + block * kSumsPerBlock);
+    // Adds the sums of the first `block_count` blocks to the targets, and is zero again.
+    void take(std::uint32_t block_count, const SumTargets& targets) {
+        for (std::size_t block = 0; block < block_count; ++block) {
+            for (std::uint32_t rows = touched_rows_[block]; rows != 0; rows &= rows - 1) {
+                const std::size_t slot =
+                    kRowSlots * static_cast<std::size_t>(std::countr_zero(rows));
+                float* from = &sums_[block][4 * slot];
+                const std::size_t first = block * kSumsPerBlock + slot;
+                add_row(from, targets.sums + first);
+                if (targets.total != nullptr) {
+                    add_row(from, targets.total + first);
+                }
+                std::fill_n(from, 4 * kRowSlots, 0.0F);
             }
+            touched_rows_[block] = 0;
         }
     }
 
   private:
-    static void add_block(const float* HWY_RESTRICT sums, float* HWY_RESTRICT target) {
+    static constexpr std::size_t kRowSlots = 16;
+
+    static HWY_INLINE void add_row(const float* HWY_RESTRICT sums, float* HWY_RESTRICT target) {
         const hn::FixedTag<float, 4> d4;
-        for (std::size_t slot = 0; slot < kBlockSize; slot += 4) {
+        for (std::size_t slot = 0; slot < kRowSlots; slot += 4) {
             hn::Vec<decltype(d4)> red, green, blue, unused;
             hn::LoadInterleaved4(d4, sums + 4 * slot, red, green, blue, unused);
             add_one(d4, red, target + slot);
@@ -75,11 +84,11 @@ class SparseSums {
         }
     }
 
-    alignas(
-        64) std::array<std::array<float, 4 * kBlockSize>, transport::kMaxBlocksPerShard> sums_;
-    std::uint64_t used_ = 0;
+    // Zero between calls.
+    alignas(64)
+        std::array<std::array<float, 4 * kBlockSize>, transport::kMaxBlocksPerShard> sums_{};
+    std::array<std::uint32_t, transport::kMaxBlocksPerShard> touched_rows_{};
 };
-static_assert(transport::kMaxBlocksPerShard <= 64);
 
 #endif  // HWY_SCALAR
 }  // namespace relume::engine::HWY_NAMESPACE

@@ -89,12 +89,21 @@ double squared_norm_loop(const float* HWY_RESTRICT values, std::size_t count) {
     double sum = 0;
     for (std::size_t first = 0; first < count; first += kRun) {
         const std::size_t end = first + kRun < count ? first + kRun : count;
-        auto run = hn::Zero(df);
+        // Four sums side by side, for an addition waits for the one before it.
+        auto run0 = hn::Zero(df), run1 = run0, run2 = run0, run3 = run0;
+        const auto plus_square = [&](auto sum_so_far, std::size_t at) HWY_ATTR {
+            const auto v = hn::LoadU(df, values + at);
+            return hn::Add(sum_so_far, hn::Mul(v, v));
+        };
+        const std::size_t lanes = hn::Lanes(df);
         std::size_t i = first;
-        for (; i + hn::Lanes(df) <= end; i += hn::Lanes(df)) {
-            const auto v = hn::LoadU(df, values + i);
-            run = hn::Add(run, hn::Mul(v, v));
+        for (; i + 4 * lanes <= end; i += 4 * lanes) {
+            run0 = plus_square(run0, i);
+            run1 = plus_square(run1, i + lanes);
+            run2 = plus_square(run2, i + 2 * lanes);
+            run3 = plus_square(run3, i + 3 * lanes);
         }
+        const auto run = hn::Add(hn::Add(run0, run1), hn::Add(run2, run3));
         sum += static_cast<double>(hn::GetLane(hn::SumOfLanes(df, run)));
         for (; i < end; ++i) {
             sum += static_cast<double>(values[i]) * static_cast<double>(values[i]);
