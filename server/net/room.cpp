@@ -245,7 +245,7 @@ void Room::perform(std::span<Turn> turns) {
         turn.attempt([&] {
             tbb::this_task_arena::isolate([&] {
                 auto problems = std::move(turn.result.problems);
-                turn.slice.encoder_is_free = turn.room->encoder_is_free();
+                turn.room->look_who_is_ready(turn.slice);
                 turn.result = turn.room->images_.end(turn.slice);
                 turn.result.problems = std::move(problems);
             });
@@ -277,15 +277,16 @@ std::optional<RoomSlice> Room::begin_slice() {
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
     slice.encode_ms = encode_ms_;
-    slice.viewer_wants_moving =
-        std::any_of(viewers_.begin(), viewers_.end(),
-                    [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
     return slice;
 }
 
-bool Room::encoder_is_free() const {
+// Under one lock, for an image that an encoder has just handed over is in flight to a viewer.
+void Room::look_who_is_ready(RoomSlice& slice) const {
     const std::lock_guard lock(mutex_);
-    return !encoding_;
+    slice.encoder_is_free = !encoding_;
+    slice.viewer_wants_moving =
+        std::any_of(viewers_.begin(), viewers_.end(),
+                    [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
 }
 
 void Room::end_slice(const RoomSlice& slice, SliceResult result) {

@@ -95,7 +95,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
 
     [[nodiscard]] std::optional<RoomSlice> begin_slice();
     static void perform(std::span<Turn> turns);
-    [[nodiscard]] bool encoder_is_free() const;
+    void look_who_is_ready(RoomSlice& slice) const;
     void end_slice(const RoomSlice& slice, SliceResult result);
     void encode(const Picture& picture) noexcept;
     void deliver(const SharedImageFrame& frame);

@@ -21,10 +21,11 @@ struct RoomSlice {
     std::uint64_t revision = 0;
     Clock::time_point edit_read_at;
     Clock::time_point settle_at;
-    bool viewer_wants_moving = false;
     bool first_image_due = false;  // of an edit
     bool settled_image_due = false;
-    bool encoder_is_free = true;  // at the slice's end
+    // As it is when the picture is due, not when the slice begins:
+    bool encoder_is_free = false;
+    bool viewer_wants_moving = false;
     double encode_ms = 0;  // what a JPEG has been taking
 };
 
