@@ -149,7 +149,7 @@ class Bake {
     }
 
   private:
-    static constexpr std::uint32_t kStatingRows = 256;
+    static constexpr std::uint32_t kStatingRows = 128;
     static constexpr std::uint32_t kChoosingRows = 64;
 
     void bake_shard(std::uint32_t shard,

@@ -31,17 +31,6 @@ T read_value(const std::uint8_t* at) {
     return value;
 }
 
-void append_bitmap(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
-    const std::size_t at = bytes.size();
-    bytes.resize(at + kBitmapBytes, 0);
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        if (values[slot] != 0) {
-            bytes[at + slot / 8] =
-                static_cast<std::uint8_t>(bytes[at + slot / 8] | (1U << (slot % 8)));
-        }
-    }
-}
-
 template <typename T>
 void append_all(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
     for (const std::int32_t value : values) {
@@ -49,25 +38,25 @@ void append_all(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
     }
 }
 
-template <typename T>
-void append_nonzero(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
-    for (const std::int32_t value : values) {
-        if (value != 0) {
-            append_value(bytes, static_cast<T>(value));
-        }
-    }
-}
-
-void append_sparse8(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
+void append_strips8(const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
     const std::size_t count = bytes.size();
     bytes.push_back(0);
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        if (values[slot] != 0) {
-            bytes.push_back(static_cast<std::uint8_t>(slot));
+    for (std::size_t strip = 0; strip < kStripsPerBlock; ++strip) {
+        unsigned mask = 0;
+        for (std::size_t i = 0; i < kStripSlots; ++i) {
+            mask |= (values[strip * kStripSlots + i] != 0 ? 1U : 0U) << i;
+        }
+        if (mask != 0) {
+            bytes.push_back(static_cast<std::uint8_t>(strip));
+            bytes.push_back(static_cast<std::uint8_t>(mask));
+            ++bytes[count];
         }
     }
-    bytes[count] = static_cast<std::uint8_t>(bytes.size() - count - 1);
-    append_nonzero<std::int8_t>(values, bytes);
+    for (const std::int32_t value : values) {
+        if (value != 0) {
+            append_value(bytes, static_cast<std::int8_t>(value));
+        }
+    }
 }
 
 // q = low + 256·high with low in 8 bits.
@@ -78,34 +67,21 @@ void append_split(CellTag tag, const QuantisedCell& values, std::vector<std::uin
         low[slot] = static_cast<std::int8_t>(values[slot] & 0xFF);
         high[slot] = (values[slot] - low[slot]) / kHighPart;
     }
-    append_sparse8(high, bytes);
+    append_strips8(high, bytes);
     append_cell_as(low_tag(tag), low, bytes);
 }
 
-std::size_t sparse8_bytes(const std::uint8_t* cell) {
-    return 1 + 2 * std::size_t{cell[0]};
+// Values a cell of strips holds.
+std::size_t strips8_values(const std::uint8_t* cell) {
+    std::size_t values = 0;
+    for (std::size_t i = 0; i < cell[0]; ++i) {
+        values += static_cast<std::size_t>(std::popcount(cell[2 + 2 * i]));
+    }
+    return values;
 }
 
-std::uint32_t bitmap_population(const std::uint8_t* bitmap) {
-    int population = 0;
-    for (std::size_t i = 0; i < kBitmapBytes; i += sizeof(std::uint64_t)) {
-        population += std::popcount(read_value<std::uint64_t>(bitmap + i));
-    }
-    return static_cast<std::uint32_t>(population);
-}
-
-template <typename T>
-const std::uint8_t* decode_bitmap(const std::uint8_t* cell, DecodedCell& values) {
-    const std::uint8_t* packed = cell + kBitmapBytes;
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        if ((cell[slot / 8] >> (slot % 8)) & 1U) {
-            values[slot] = static_cast<float>(read_value<T>(packed));
-            packed += sizeof(T);
-        } else {
-            values[slot] = 0;
-        }
-    }
-    return packed;
+std::size_t strips8_bytes(const std::uint8_t* cell) {
+    return 1 + 2 * std::size_t{cell[0]} + strips8_values(cell);
 }
 
 template <typename T>
@@ -116,32 +92,43 @@ const std::uint8_t* decode_dense(const std::uint8_t* cell, DecodedCell& values) 
     return cell + kBlockSize * sizeof(T);
 }
 
-const std::uint8_t* decode_sparse8(const std::uint8_t* cell, DecodedCell& values) {
+const std::uint8_t* decode_strips8(const std::uint8_t* cell, DecodedCell& values) {
     const std::size_t count = cell[0];
+    const std::uint8_t* packed = cell + 1 + 2 * count;
     values.fill(0);
     for (std::size_t i = 0; i < count; ++i) {
-        values[cell[1 + i]] = static_cast<float>(static_cast<std::int8_t>(cell[1 + count + i]));
+        const std::size_t first = kStripSlots * cell[1 + 2 * i];
+        for (unsigned mask = cell[2 + 2 * i]; mask != 0; mask &= mask - 1) {
+            values[first + static_cast<std::size_t>(std::countr_zero(mask))] =
+                static_cast<float>(static_cast<std::int8_t>(*packed++));
+        }
     }
-    return cell + sparse8_bytes(cell);
+    return packed;
 }
 
 const std::uint8_t* decode_split(CellTag tag, const std::uint8_t* cell, DecodedCell& values) {
     DecodedCell high;
-    const std::uint8_t* end = decode_cell(low_tag(tag), decode_sparse8(cell, high), values);
+    const std::uint8_t* end = decode_cell(low_tag(tag), decode_strips8(cell, high), values);
     for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
         values[slot] += kHighPart * high[slot];
     }
     return end;
 }
 
-void check_sparse_slots(const std::uint8_t* cell, std::size_t count) {
-    for (std::size_t i = 1; i < count; ++i) {
-        if (cell[1 + i] <= cell[i]) {
-            throw TransportError(
-                fmt::format("slot {} follows slot {} in a sparse cell, expected "
-                            "ascending slots",
-                            cell[1 + i], cell[i]));
+// `count` strips, ascending, none empty.
+void check_strips(const std::uint8_t* cell, std::size_t count) {
+    int last = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int strip = cell[1 + 2 * i];
+        if (strip <= last || strip >= static_cast<int>(kStripsPerBlock)) {
+            throw TransportError(fmt::format(
+                "strip {} follows strip {} in a cell, expected ascending strips below {}",
+                strip, last, kStripsPerBlock));
         }
+        if (cell[2 + 2 * i] == 0) {
+            throw TransportError(fmt::format("strip {} of a cell holds nothing", strip));
+        }
+        last = strip;
     }
 }
 
@@ -171,26 +158,17 @@ void append_cell_as(CellTag tag,
         case CellTag::dense8:
             append_all<std::int8_t>(values, bytes);
             return;
-        case CellTag::bitmap8:
-            append_bitmap(values, bytes);
-            append_nonzero<std::int8_t>(values, bytes);
-            return;
-        case CellTag::sparse8:
-            append_sparse8(values, bytes);
+        case CellTag::strips8:
+            append_strips8(values, bytes);
             return;
         case CellTag::dense16:
             append_all<std::int16_t>(values, bytes);
-            return;
-        case CellTag::bitmap16:
-            append_bitmap(values, bytes);
-            append_nonzero<std::int16_t>(values, bytes);
             return;
         case CellTag::dense32f:
             append_all<float>(values, bytes);
             return;
         case CellTag::split_dense8:
-        case CellTag::split_bitmap8:
-        case CellTag::split_sparse8:
+        case CellTag::split_strips8:
             append_split(tag, values, bytes);
             return;
     }
@@ -204,7 +182,7 @@ std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t>
     const auto cell_tag = static_cast<CellTag>(tag);
     if (is_split(cell_tag)) {
         const std::size_t high =
-            validated_cell_bytes(static_cast<std::uint8_t>(CellTag::sparse8), bytes);
+            validated_cell_bytes(static_cast<std::uint8_t>(CellTag::strips8), bytes);
         return high + validated_cell_bytes(static_cast<std::uint8_t>(low_tag(cell_tag)),
                                            bytes.subspan(high));
     }
@@ -214,22 +192,17 @@ std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t>
                                              kCellTagNames[tag], needed, bytes.size()));
         }
     };
-    if (cell_tag == CellTag::bitmap8 || cell_tag == CellTag::bitmap16) {
-        require(kBitmapBytes);
-        if (bitmap_population(bytes.data()) == 0) {
-            throw TransportError("bitmap cell without a set bit, expected an empty cell");
-        }
-    } else if (cell_tag == CellTag::sparse8) {
+    if (cell_tag == CellTag::strips8) {
         require(1);
         if (bytes[0] == 0) {
-            throw TransportError("sparse cell of 0 values, expected an empty cell");
+            throw TransportError("cell of 0 strips, expected an empty cell");
         }
+        require(1 + 2 * std::size_t{bytes[0]});
+        check_strips(bytes.data(), bytes[0]);
     }
     const std::size_t size = cell_bytes(cell_tag, bytes.data());
     require(size);
-    if (cell_tag == CellTag::sparse8) {
-        check_sparse_slots(bytes.data(), bytes[0]);
-    } else if (cell_tag == CellTag::dense32f) {
+    if (cell_tag == CellTag::dense32f) {
         check_finite(bytes.data());
     }
     return size;
@@ -241,20 +214,15 @@ std::size_t cell_bytes(CellTag tag, const std::uint8_t* cell) {
             return 0;
         case CellTag::dense8:
             return kBlockSize;
-        case CellTag::bitmap8:
-            return kBitmapBytes + bitmap_population(cell);
-        case CellTag::sparse8:
-            return sparse8_bytes(cell);
+        case CellTag::strips8:
+            return strips8_bytes(cell);
         case CellTag::dense16:
             return kBlockSize * sizeof(std::int16_t);
-        case CellTag::bitmap16:
-            return kBitmapBytes + sizeof(std::int16_t) * bitmap_population(cell);
         case CellTag::dense32f:
             return kBlockSize * sizeof(float);
         case CellTag::split_dense8:
-        case CellTag::split_bitmap8:
-        case CellTag::split_sparse8:
-            return sparse8_bytes(cell) + cell_bytes(low_tag(tag), cell + sparse8_bytes(cell));
+        case CellTag::split_strips8:
+            return strips8_bytes(cell) + cell_bytes(low_tag(tag), cell + strips8_bytes(cell));
     }
     return 0;
 }
@@ -266,30 +234,40 @@ const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCe
             return cell;
         case CellTag::dense8:
             return decode_dense<std::int8_t>(cell, values);
-        case CellTag::bitmap8:
-            return decode_bitmap<std::int8_t>(cell, values);
-        case CellTag::sparse8:
-            return decode_sparse8(cell, values);
+        case CellTag::strips8:
+            return decode_strips8(cell, values);
         case CellTag::dense16:
             return decode_dense<std::int16_t>(cell, values);
-        case CellTag::bitmap16:
-            return decode_bitmap<std::int16_t>(cell, values);
         case CellTag::dense32f:
             return decode_dense<float>(cell, values);
         case CellTag::split_dense8:
-        case CellTag::split_bitmap8:
-        case CellTag::split_sparse8:
+        case CellTag::split_strips8:
             return decode_split(tag, cell, values);
     }
     return cell;
 }
 
-std::uint32_t cell_nonzeros(CellTag tag, const std::uint8_t* cell) {
-    if (tag == CellTag::bitmap8 || tag == CellTag::bitmap16) {
-        return bitmap_population(cell);
+std::uint64_t SegmentView::occupied_blocks(std::uint32_t block_count) const {
+    constexpr std::uint32_t kTagsPerWord = 16;
+    std::uint64_t blocks = 0;
+    for (std::uint32_t first = 0; first < block_count; first += kTagsPerWord) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, tags + first / 2,
+                    tag_bytes(std::min(kTagsPerWord, block_count - first)));
+        // Every fourth bit, closed up.
+        word = occupied_tags(word);
+        word = (word | word >> 3U) & 0x0303'0303'0303'0303U;
+        word = (word | word >> 6U) & 0x000F'000F'000F'000FU;
+        word = (word | word >> 12U) & 0x0000'00FF'0000'00FFU;
+        word = (word | word >> 24U) & 0xFFFFU;
+        blocks |= word << first;
     }
-    if (tag == CellTag::sparse8) {
-        return cell[0];
+    return blocks;
+}
+
+std::uint32_t cell_nonzeros(CellTag tag, const std::uint8_t* cell) {
+    if (tag == CellTag::strips8) {
+        return static_cast<std::uint32_t>(strips8_values(cell));
     }
     DecodedCell values;
     decode_cell(tag, cell, values);

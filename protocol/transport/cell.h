@@ -35,6 +35,13 @@ const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCe
 // Non-zero values a validated cell stores.
 [[nodiscard]] std::uint32_t cell_nonzeros(CellTag tag, const std::uint8_t* cell);
 
+// The lowest bit of every one of sixteen tags that is not `empty`.
+[[nodiscard]] constexpr std::uint64_t occupied_tags(std::uint64_t tags) {
+    tags |= tags >> 1U;
+    tags |= tags >> 2U;
+    return tags & 0x1111'1111'1111'1111U;
+}
+
 // A validated segment: the cells of one column and channel in one shard. Null when all-zero.
 struct SegmentView {
     const std::uint8_t* tags = nullptr;
@@ -46,6 +53,8 @@ struct SegmentView {
         const unsigned shift = (block_in_shard & 1U) * 4U;
         return static_cast<CellTag>((tags[block_in_shard / 2] >> shift) & 0xFU);
     }
+    // Bit b: block b of the shard's `block_count` has a cell.
+    [[nodiscard]] std::uint64_t occupied_blocks(std::uint32_t block_count) const;
 };
 
 [[nodiscard]] constexpr std::size_t tag_bytes(std::uint32_t block_count) {

@@ -12,10 +12,15 @@ namespace relume::transport {
 
 // What the cost of a cell depends on.
 struct CellShape {
-    std::size_t nonzeros = 0;
+    // Values that are not zero, and strips that hold any.
+    struct Occupancy {
+        std::size_t nonzeros = 0;
+        std::size_t strips = 0;
+    };
+    Occupancy all;
     // Of the parts q = low + 256·high, low in 8 bits.
-    std::size_t low_nonzeros = 0;
-    std::size_t high_nonzeros = 0;
+    Occupancy low;
+    Occupancy high;
     std::int32_t least = 0;
     std::int32_t largest = 0;
 

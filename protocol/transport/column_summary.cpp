@@ -41,7 +41,7 @@ struct SketchPlan {
 
     [[nodiscard]] SketchTable empty_table(std::size_t columns) const {
         return {.scales = std::vector<float>(columns * kColours),
-                .values = std::vector<std::int16_t>(columns * kColours * rows)};
+                .values = std::vector<std::int8_t>(columns * kColours * rows)};
     }
 };
 
@@ -56,9 +56,10 @@ class ColumnSketch {
         const SketchPlace& place = plan_.places[receiver];
         sums_[colour * plan_.rows + place.row] += double{place.sign} * value;
     }
-    // Rounded to 16 bits, the largest value of each colour to the largest integer.
+    // Rounded to 8 bits, the largest value of each colour to the largest integer: noise of a
+    // hundredth of the value, where the estimate itself is good to a twentieth.
     void store(std::size_t column, SketchTable& table) const {
-        constexpr double kLargestInteger = std::numeric_limits<std::int16_t>::max();
+        constexpr double kLargestInteger = std::numeric_limits<std::int8_t>::max();
         const std::size_t rows = plan_.rows;
         for (std::size_t c = 0; c < kColours; ++c) {
             const std::span<const double> sums = std::span(sums_).subspan(c * rows, rows);
@@ -70,7 +71,7 @@ class ColumnSketch {
             const auto scale = static_cast<float>(largest / kLargestInteger);
             table.scales[place] = scale;
             for (std::size_t r = 0; r < rows && scale > 0; ++r) {
-                table.values[place * rows + r] = static_cast<std::int16_t>(
+                table.values[place * rows + r] = static_cast<std::int8_t>(
                     std::clamp(std::round(sums[r] / scale), -kLargestInteger, kLargestInteger));
             }
         }

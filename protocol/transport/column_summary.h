@@ -11,8 +11,8 @@
 namespace relume::transport {
 
 struct SketchTable {
-    std::vector<float> scales;         // [N][3]
-    std::vector<std::int16_t> values;  // [N][3][rows]
+    std::vector<float> scales;        // [N][3]
+    std::vector<std::int8_t> values;  // [N][3][rows]
 };
 
 struct ColumnSummary {

@@ -7,7 +7,7 @@
 
 namespace relume::transport {
 
-inline constexpr std::uint32_t kFormatVersion = 1;
+inline constexpr std::uint32_t kFormatVersion = 2;
 
 inline constexpr std::uint32_t kTileSide = 16;
 inline constexpr std::uint32_t kBlockSize = kTileSide * kTileSide;  // receivers (slots)
@@ -25,24 +25,21 @@ inline constexpr std::size_t kShardAlignment = 64;
 // Zeroes after the data, so that vector loads may run past the last cell.
 inline constexpr std::size_t kShardTailBytes = 64;
 
-// How a cell (256 values of one column) is stored. In the last three, values beyond 8 bits are
-// split, q = low + 256·high: first the few that have a high part, then all low parts.
+// How a cell (256 values of one column) is stored: all of it, or those of its strips of eight
+// slots in which anything is. In the last two, values beyond 8 bits are split,
+// q = low + 256·high: first the few that have a high part, then all low parts.
 enum class CellTag : std::uint8_t {
     empty = 0,
     dense8 = 1,
-    bitmap8 = 2,
-    sparse8 = 3,
-    dense16 = 4,
-    bitmap16 = 5,
-    dense32f = 6,
-    split_dense8 = 7,
-    split_bitmap8 = 8,
-    split_sparse8 = 9,
+    strips8 = 2,
+    dense16 = 3,
+    dense32f = 4,
+    split_dense8 = 5,
+    split_strips8 = 6,
 };
-inline constexpr std::size_t kCellTagCount = 10;
+inline constexpr std::size_t kCellTagCount = 7;
 inline constexpr std::array<const char*, kCellTagCount> kCellTagNames{
-    "empty",    "dense8",   "bitmap8",      "sparse8",       "dense16",
-    "bitmap16", "dense32f", "split_dense8", "split_bitmap8", "split_sparse8"};
+    "empty", "dense8", "strips8", "dense16", "dense32f", "split_dense8", "split_strips8"};
 inline constexpr std::int32_t kHighPart = 256;
 
 [[nodiscard]] constexpr bool is_split(CellTag tag) {
@@ -54,7 +51,8 @@ inline constexpr std::int32_t kHighPart = 256;
                                 static_cast<std::uint8_t>(CellTag::split_dense8) +
                                 static_cast<std::uint8_t>(CellTag::dense8));
 }
-inline constexpr std::size_t kBitmapBytes = kBlockSize / 8;
+inline constexpr std::size_t kStripSlots = 8;
+inline constexpr std::size_t kStripsPerBlock = kBlockSize / kStripSlots;
 
 // Where a pixel lives.
 struct Receiver {

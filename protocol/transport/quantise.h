@@ -1,5 +1,8 @@
-// Quantisation with a dead zone: q = round(v/step), but 0 where |v| is below 0.6 steps, which
-// keeps sparse what is sparse.
+// Quantisation with a wide dead zone: q = round(v/step), but 0 where |v| is below 1.6 steps.
+//
+// A value takes a byte however small it is, so fine steps cost nothing but few values do: at
+// equal error, steps half as large with a zone of 1.6 leave 13 % fewer values than rounding
+// with one of 0.6 (README).
 //
 // Nothing is dithered: values are coefficients of a block (receiver_basis.h), whose errors
 // spread over the block as they are, and random rounding would double their energy.
@@ -11,7 +14,7 @@
 
 namespace relume::transport {
 
-inline constexpr float kDeadZone = 0.6F;  // steps
+inline constexpr float kDeadZone = 1.6F;  // steps
 
 // One value, `scaled` being v/step, finite; saturates at ±2^30.
 [[nodiscard]] std::int32_t quantised(float scaled);

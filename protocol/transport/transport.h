@@ -20,17 +20,17 @@ class Sketch {
     // Scales [N][3], values [N][3][rows].
     Sketch(std::uint32_t rows,
            std::span<const float> scales,
-           std::span<const std::int16_t> values)
+           std::span<const std::int8_t> values)
         : rows_(rows), scales_(scales), values_(values) {}
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
     // Integers, times the scale.
-    [[nodiscard]] std::span<const std::int16_t> values(std::size_t column,
-                                                       std::uint32_t colour) const {
+    [[nodiscard]] std::span<const std::int8_t> values(std::size_t column,
+                                                      std::uint32_t colour) const {
         return values_.subspan(first_value(column, colour), rows_);
     }
     // All of them, [N][3][rows], and where those of a column and colour begin.
-    [[nodiscard]] std::span<const std::int16_t> table() const { return values_; }
+    [[nodiscard]] std::span<const std::int8_t> table() const { return values_; }
     [[nodiscard]] std::size_t first_value(std::size_t column, std::uint32_t colour) const {
         return (column * kColours + colour) * rows_;
     }
@@ -41,7 +41,7 @@ class Sketch {
   private:
     std::uint32_t rows_ = 0;
     std::span<const float> scales_;
-    std::span<const std::int16_t> values_;
+    std::span<const std::int8_t> values_;
 };
 
 // Safe to share between threads.

@@ -49,9 +49,9 @@ class TransportWriter {
     // Thread-safe for different shards.
     void write_shard(std::uint32_t shard, const std::vector<EncodedBlock>& blocks) const;
 
-    // Reads all shards back, sums column energies, bytes and the sketches from what is *stored*,
-    // writes the tables and, last of all, the manifest with `measured` and cell statistics
-    // added to it. Throws TransportError when a shard is missing.
+    // Reads all shards back, sums column energies, bytes and the sketches from what is
+    // *stored*, writes the tables and, last of all, the manifest with `measured` and cell
+    // statistics added to it. Throws TransportError when a shard is missing.
     void finish(const BakedTables& tables, const nlohmann::json& measured);
 
     [[nodiscard]] const ShardPlan& plan() const { return plan_; }

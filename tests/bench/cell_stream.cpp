@@ -9,7 +9,7 @@ namespace {
 
 using transport::kBlockSize;
 
-// "bitmap8/64" is a cell of encoding bitmap8.
+// "strips8/64" is a cell of encoding strips8.
 transport::CellTag encoding_of(const CellKind& kind) {
     const auto& names = transport::kCellTagNames;
     const auto* name =
@@ -37,19 +37,12 @@ const std::vector<CellKind>& cell_kinds() {
     constexpr std::int32_t kRange32 = 100000;
     static const std::vector<CellKind> kinds{
         {.name = "empty"},
-        {.name = "sparse8/1", .nonzeros = 1},
-        {.name = "sparse8/4", .nonzeros = 4},
-        {.name = "sparse8/16", .nonzeros = 16},
-        {.name = "sparse8/31", .nonzeros = 31},
-        {.name = "sparse8/64", .nonzeros = 64},
-        {.name = "sparse8/128", .nonzeros = 128},
-        {.name = "bitmap8/32", .nonzeros = 32},
-        {.name = "bitmap8/64", .nonzeros = 64},
-        {.name = "bitmap8/128", .nonzeros = 128},
-        {.name = "bitmap8/192", .nonzeros = 192},
+        {.name = "strips8/1", .nonzeros = 1},
+        {.name = "strips8/4", .nonzeros = 4},
+        {.name = "strips8/16", .nonzeros = 16},
+        {.name = "strips8/64", .nonzeros = 64},
+        {.name = "strips8/128", .nonzeros = 128},
         {.name = "dense8/256", .nonzeros = 256},
-        {.name = "bitmap16/32", .nonzeros = 32, .range = kRange16},
-        {.name = "bitmap16/128", .nonzeros = 128, .range = kRange16},
         {.name = "dense16/256", .nonzeros = 256, .range = kRange16},
         {.name = "dense32f/256", .nonzeros = 256, .range = kRange32},
     };

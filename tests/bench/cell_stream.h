@@ -17,7 +17,7 @@ struct CellKind {
     std::int32_t range = 127;    // values are in ±range, not zero
 };
 
-// Every encoding, sparse and bitmap ones at several densities; a name begins with its encoding.
+// Every encoding, strips at several densities; a name begins with its encoding.
 [[nodiscard]] const std::vector<CellKind>& cell_kinds();
 
 class CellStream {

@@ -118,7 +118,7 @@ test::LinearImage by_column_range(const scene::Scene& scene,
     return image;
 }
 
-// Σ_j 0.6·step_j·|L_j|, the dead zone being the largest error of one value: by the triangle
+// Σ_j zone·step_j·|L_j|, the dead zone being the largest error of one value: by the triangle
 // inequality the largest RMS error of the image, before tint.
 double storage_bound(const transport::Transport& transport, const Light& light) {
     std::vector<float> coefficients;
@@ -188,7 +188,7 @@ Outcome provoke(Workbench& workbench) {
          0.02, ng03_error, "more than the eye lets pass: the highlight takes the range"},
         {"as stored: the same", Sense::at_most, ng03_error, matte.relative_error(stored, exact),
          "measured beside it: no worse than [Ng03]"},
-        {"as stored: RMS error of the image, of Σ 0.6·step·|L|", Sense::at_most, 1,
+        {"as stored: RMS error of the image, of Σ zone·step·|L|", Sense::at_most, 1,
          rms / storage_bound(*transport, light),
          "a value is off by the dead zone at most, whatever the largest in its column"},
     };

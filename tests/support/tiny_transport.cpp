@@ -147,12 +147,14 @@ void receivers_from_sums(std::vector<double>& sums) {
                     const std::size_t column = x / support;
                     const double along_columns = x % support < support / 2 ? 1 : -1;
                     const double along_rows = y % support < support / 2 ? 1 : -1;
-                    const auto at = [&](std::size_t r, std::size_t c) {
-                        return coefficients[r * kSide + c];
-                    };
-                    value += (along_columns * at(row, column + side) +
-                              along_rows * at(row + side, column) +
-                              along_columns * along_rows * at(row + side, column + side)) /
+                    // Slots in Z-order: by quarters of quarters, from the largest down.
+                    std::size_t z = 0;
+                    for (std::size_t half = side / 2; half > 0; half /= 2) {
+                        z = 4 * z + 2 * (row / half % 2) + column / half % 2;
+                    }
+                    const double* wavelets = &coefficients[side * side + 3 * z];
+                    value += (along_columns * wavelets[0] + along_rows * wavelets[1] +
+                              along_columns * along_rows * wavelets[2]) /
                              static_cast<double>(support);
                 }
                 block[y * kSide + x] = value;

@@ -48,12 +48,11 @@ inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
 // For every segment s, block b of the shard, colour c and slot i, adds weights(s,c)·q(s,b,i) to
 // both targets. The order is part of the contract, so that every instruction set gives the same
 // bits:
-// - a block's cells that are not sparse are added up from zero, group by group; of each group
-// its
-//   8-bit cells (dense8, bitmap8), then its 16-bit cells, then its float cells, each in the
-//   order of the segments; the result is added to the targets;
-// - then the same goes for all its sparse values in the order of the segments, those of a split
-//   cell's high part, with 256 times the weight, before its low part;
+// - a block's dense cells are added up from zero, group by group; of each group its 8-bit
+//   cells, then its 16-bit cells, then its float cells, each in the order of the segments; the
+//   result is added to the targets;
+// - then the same goes for all its cells of strips in the order of the segments, a split cell's
+//   high part, with 256 times the weight, before its low part;
 // - every product is added without rounding in between (fused multiply-add).
 using AccumulateSegments = void(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,

@@ -136,24 +136,26 @@ constexpr std::array<float, 256> kFloatFromByte = [] {
     return values;
 }();
 
-// Calls add(slot, rank) for every set bit of a bitmap.
+// A bit for every slot of a block.
+using Bitmap = std::array<std::uint8_t, kBlockSize / 8>;
+
+// Calls add(slot) for every set bit of a bitmap.
 template <typename Add>
-HWY_INLINE void for_each_value(const std::uint8_t* bitmap, const Add& add) {
-    std::size_t rank = 0;
+HWY_INLINE void for_each_slot(const Bitmap& bitmap, const Add& add) {
     for (std::size_t first = 0; first < kBlockSize; first += 64) {
         std::uint64_t mask = 0;
-        std::memcpy(&mask, bitmap + first / 8, sizeof(mask));
+        std::memcpy(&mask, &bitmap[first / 8], sizeof(mask));
         for (; mask != 0; mask &= mask - 1) {
-            add(first + static_cast<std::size_t>(std::countr_zero(mask)), rank++);
+            add(first + static_cast<std::size_t>(std::countr_zero(mask)));
         }
     }
 }
 
 // Bit i: byte i of a dense cell is not zero.
-std::array<std::uint8_t, transport::kBitmapBytes> occupancy(const std::uint8_t* cell) {
+Bitmap occupancy(const std::uint8_t* cell) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint8_t, 64> d8;
-    std::array<std::uint8_t, transport::kBitmapBytes> bits;
+    Bitmap bits;
     for (std::size_t slot = 0; slot < kBlockSize; slot += hn::Lanes(d8)) {
         hn::StoreMaskBits(d8, hn::Ne(hn::LoadU(d8, cell + slot), hn::Zero(d8)),
                           &bits[slot / 8]);
@@ -161,7 +163,7 @@ std::array<std::uint8_t, transport::kBitmapBytes> occupancy(const std::uint8_t* 
     return bits;
 }
 
-std::uint32_t rows_of_bitmap(const std::uint8_t* bitmap) {
+std::uint32_t rows_of_bitmap(const Bitmap& bitmap) {
     std::uint32_t rows = 0;
     for (std::size_t row = 0; row < kBlockSize / LaneSums::kRowSlots; ++row) {
         rows |= ((bitmap[2 * row] | bitmap[2 * row + 1]) != 0 ? 1U : 0U) << row;
@@ -186,14 +188,14 @@ class Workspace {
             lists_.fill(
                 segments.size(), [&](std::size_t s) { return segments[s]; }, block_count,
                 [&](std::size_t s, std::uint32_t block, const std::uint8_t* cell, float scale)
-                    HWY_ATTR { add_sparse(block, cell, wave_.lanes(s), scale); });
+                    HWY_ATTR { return add_strips(block, cell, wave_.lanes(s), scale); });
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(block);
             }
         }
         for (std::uint32_t block = 0; block < block_count; ++block) {
             values_[block].take(members, block, stride_);
-            sparse_[block].take(members, block, stride_);
+            strips_[block].take(members, block, stride_);
         }
     }
 
@@ -214,9 +216,6 @@ class Workspace {
                 case CellTag::dense8:
                     add_dense8(block, listed.cell, lanes);
                     break;
-                case CellTag::bitmap8:
-                    add_bitmap8(block, listed.cell, lanes);
-                    break;
                 default:
                     wide_.push_back(listed);
                     break;
@@ -225,54 +224,43 @@ class Workspace {
         add_wide(block);
     }
 
-    HWY_INLINE void add_sparse(std::uint32_t block,
-                               const std::uint8_t* cell,
-                               const Wave::Lanes& lanes,
-                               float scale) {
+    // Returns the end of the cell.
+    HWY_INLINE const std::uint8_t* add_strips(std::uint32_t block,
+                                              const std::uint8_t* cell,
+                                              const Wave::Lanes& lanes,
+                                              float scale) {
         const std::size_t count = cell[0];
-        const std::uint8_t* slots = cell + 1;
-        const std::uint8_t* values = slots + count;
-        LaneSums& sums = sparse_[block];
+        const std::uint8_t* packed = cell + 1 + 2 * count;
+        LaneSums& sums = strips_[block];
         const std::size_t stride = stride_;
-        with_active_lanes(lanes.weights, lanes.active, lanes.active_count, scale,
-                          [&](const auto& active) HWY_ATTR {
-                              for (std::size_t i = 0; i < count; ++i) {
-                                  sums.touch_row_of(slots[i]);
-                                  active.add(kFloatFromByte[values[i]],
-                                             sums.slot(slots[i], stride));
-                              }
-                          });
+        with_active_lanes(
+            lanes.weights, lanes.active, lanes.active_count, scale,
+            [&](const auto& active) HWY_ATTR {
+                for (std::size_t i = 0; i < count; ++i) {
+                    const std::size_t first = transport::kStripSlots * cell[1 + 2 * i];
+                    sums.touch_row_of(first);
+                    for (unsigned mask = cell[2 + 2 * i]; mask != 0; mask &= mask - 1) {
+                        const auto slot =
+                            first + static_cast<std::size_t>(std::countr_zero(mask));
+                        active.add(kFloatFromByte[*packed++], sums.slot(slot, stride));
+                    }
+                }
+            });
+        return packed;
     }
 
     // Many values are zero, and to pass one over is cheaper than to add it to so many lanes.
     void add_dense8(std::uint32_t block, const std::uint8_t* cell, const Wave::Lanes& lanes) {
         const auto occupied = occupancy(cell);
-        add_occupied(block, occupied.data(), lanes, [cell](std::size_t slot, std::size_t) {
-            return kFloatFromByte[cell[slot]];
-        });
-    }
-
-    void add_bitmap8(std::uint32_t block, const std::uint8_t* cell, const Wave::Lanes& lanes) {
-        const std::uint8_t* packed = cell + transport::kBitmapBytes;
-        add_occupied(block, cell, lanes, [packed](std::size_t, std::size_t rank) {
-            return kFloatFromByte[packed[rank]];
-        });
-    }
-
-    template <typename ValueAt>
-    HWY_INLINE void add_occupied(std::uint32_t block,
-                                 const std::uint8_t* bitmap,
-                                 const Wave::Lanes& lanes,
-                                 const ValueAt& value_at) {
         LaneSums& sums = values_[block];
         const std::size_t stride = stride_;
-        sums.touch_rows(rows_of_bitmap(bitmap));
+        sums.touch_rows(rows_of_bitmap(occupied));
         with_active_lanes(lanes.weights, lanes.active, lanes.active_count, 1,
                           [&](const auto& active) HWY_ATTR {
-                              for_each_value(
-                                  bitmap, [&](std::size_t slot, std::size_t rank) HWY_ATTR {
-                                      active.add(value_at(slot, rank), sums.slot(slot, stride));
-                                  });
+                              for_each_slot(occupied, [&](std::size_t slot) HWY_ATTR {
+                                  active.add(kFloatFromByte[cell[slot]],
+                                             sums.slot(slot, stride));
+                              });
                           });
     }
 
@@ -305,7 +293,7 @@ class Workspace {
     Lists lists_;
     std::vector<ListedCell> wide_;
     std::array<LaneSums, transport::kMaxBlocksPerShard> values_;
-    std::array<LaneSums, transport::kMaxBlocksPerShard> sparse_;
+    std::array<LaneSums, transport::kMaxBlocksPerShard> strips_;
 };
 
 }  // namespace

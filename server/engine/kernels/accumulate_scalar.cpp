@@ -12,7 +12,7 @@ using transport::DecodedCell;
 using transport::kBlockSize;
 using transport::kColours;
 
-enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, sparse };
+enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, strips };
 
 // Of the low part, if the cell is split.
 CellKind kind_of(CellTag tag) {
@@ -20,15 +20,13 @@ CellKind kind_of(CellTag tag) {
         case CellTag::empty:
             return CellKind::empty;
         case CellTag::dense8:
-        case CellTag::bitmap8:
             return CellKind::bits8;
         case CellTag::dense16:
-        case CellTag::bitmap16:
             return CellKind::bits16;
         case CellTag::dense32f:
             return CellKind::floats;
-        case CellTag::sparse8:
-            return CellKind::sparse;
+        case CellTag::strips8:
+            return CellKind::strips;
         default:
             return CellKind::empty;
     }
@@ -62,8 +60,8 @@ bool add_cells(std::span<const WeightedSegment> segments,
         const std::uint8_t* cell = cells[s];
         DecodedCell values;
         if (transport::is_split(tag)) {
-            const std::uint8_t* low = transport::decode_cell(CellTag::sparse8, cell, values);
-            if (kind == CellKind::sparse) {
+            const std::uint8_t* low = transport::decode_cell(CellTag::strips8, cell, values);
+            if (kind == CellKind::strips) {
                 add_values(values, segments[s].weights, transport::kHighPart, sums);
                 any = true;
             }
@@ -112,9 +110,9 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
         if (any) {
             add_to_targets(sums, block, targets);
         }
-        BlockSums sparse{};
-        if (add_cells(segments, cells, block, CellKind::sparse, sparse)) {
-            add_to_targets(sparse, block, targets);
+        BlockSums strips{};
+        if (add_cells(segments, cells, block, CellKind::strips, strips)) {
+            add_to_targets(strips, block, targets);
         }
         for (std::size_t s = 0; s < segments.size(); ++s) {
             cells[s] += transport::cell_bytes(segments[s].segment.tag(block), cells[s]);

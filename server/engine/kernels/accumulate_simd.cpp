@@ -13,10 +13,9 @@
 #include <memory>
 
 // Must come after highway.h, in a group of their own so that no formatter sorts them.
-#include "server/engine/kernels/bitmap_expansion-inl.h"
 #include "server/engine/kernels/block_sums-inl.h"
 #include "server/engine/kernels/cell_lists-inl.h"
-#include "server/engine/kernels/sparse_sums-inl.h"
+#include "server/engine/kernels/strip_sums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace relume::engine::HWY_NAMESPACE {
@@ -49,7 +48,7 @@ class Workspace {
             lists_.fill(
                 group.size(), [&](std::size_t s) { return group[s].segment; }, block_count,
                 [&](std::size_t s, std::uint32_t block, const std::uint8_t* cell, float scale)
-                    HWY_ATTR { sparse_.add(block, cell, group[s].weights, scale); });
+                    HWY_ATTR { return strips_.add(block, cell, group[s].weights, scale); });
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 if (lists_.of_block(block).empty()) {
                     continue;
@@ -66,44 +65,22 @@ class Workspace {
             segments = segments.subspan(group.size());
         }
         groups_.add_to(targets);
-        sparse_.take(block_count, targets);
+        strips_.take(block_count, targets);
     }
 
   private:
     void take_cells(std::span<const WeightedSegment> group, std::uint32_t block) {
         values_.clear();
-        std::size_t expanded8 = 0;
         for (const ListedCell& listed : lists_.of_block(block)) {
             const ColourWeights& weights = group[listed.segment].weights;
             const std::uint8_t* cell = listed.cell;
             switch (listed.tag) {
                 case CellTag::dense8:
-                    for (std::size_t q = 0; q < BlockValues::kQuarters; ++q) {
-                        values_.bits8[q].add(reinterpret_cast<const std::int8_t*>(cell) +
-                                                 q * BlockValues::kQuarterSlots,
-                                             weights);
-                    }
+                    values_.bits8.add(reinterpret_cast<const std::int8_t*>(cell), weights);
                     break;
-                case CellTag::bitmap8: {
-                    const std::int8_t* values = expanded8_[expanded8].data();
-                    expansion_.bits8(cell, expanded8_[expanded8++].data());
-                    for (std::size_t q = 0; q < BlockValues::kQuarters; ++q) {
-                        std::uint64_t occupied = 0;
-                        std::memcpy(&occupied, cell + q * sizeof(occupied), sizeof(occupied));
-                        values_.bits8[q].add(values + q * BlockValues::kQuarterSlots, weights,
-                                             occupied != 0);
-                    }
-                    break;
-                }
                 case CellTag::dense16: {
-                    std::int16_t* values = expanded16_[values_.bits16.count].data();
+                    std::int16_t* values = aligned16_[values_.bits16.count].data();
                     std::memcpy(values, cell, kBlockSize * sizeof(std::int16_t));
-                    values_.bits16.add(values, weights);
-                    break;
-                }
-                case CellTag::bitmap16: {
-                    std::int16_t* values = expanded16_[values_.bits16.count].data();
-                    expansion_.bits16(cell, values);
                     values_.bits16.add(values, weights);
                     break;
                 }
@@ -119,14 +96,12 @@ class Workspace {
         }
     }
 
-    const BitmapExpansion expansion_ = best_expansion();
     CellLists<kMaxGroupSegments> lists_;
     BlockValues values_;
     GroupSums groups_;
-    SparseSums sparse_;
+    StripSums strips_;
     // In the order in which they go into values_.
-    std::array<std::array<std::int8_t, kBlockSize>, kMaxGroupSegments> expanded8_;
-    std::array<std::array<std::int16_t, kBlockSize>, kMaxGroupSegments> expanded16_;
+    std::array<std::array<std::int16_t, kBlockSize>, kMaxGroupSegments> aligned16_;
     std::array<transport::DecodedCell, kMaxGroupSegments> decoded_;
 };
 

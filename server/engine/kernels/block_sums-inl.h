@@ -1,4 +1,4 @@
-// What the cells of a block that are not sparse add up to. Compiled once per instruction set,
+// What the dense cells of a block add up to. Compiled once per instruction set,
 // as Highway's own "-inl" headers are.
 #if defined(RELUME_BLOCK_SUMS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELUME_BLOCK_SUMS_INL_H
@@ -32,11 +32,10 @@ struct CellValues {
     std::array<const float*, kMaxGroupSegments> weights;
     std::size_t count = 0;
 
-    // Nothing is added but a pointer that the next addition overwrites, if not `wanted`.
-    void add(const Value* run, const ColourWeights& run_weights, bool wanted = true) {
+    void add(const Value* run, const ColourWeights& run_weights) {
         values[count] = run;
         weights[count] = run_weights.data();
-        count += wanted ? 1 : 0;
+        ++count;
     }
 };
 
@@ -64,15 +63,11 @@ HWY_INLINE hn::Vec<D> load_values(D df, const float* values) {
     return hn::LoadU(df, values);
 }
 
-// A few vectors of slots in three colours, summed in registers: as many as there are registers
-// for.
+// Vectors of slots in three colours, summed in registers: with weights and a value as many as
+// AVX2 has registers for.
 template <typename D>
 struct Registers {
-#if HWY_TARGET == HWY_AVX3
     static constexpr std::size_t kVectors = 4;
-#else
-    static constexpr std::size_t kVectors = 2;
-#endif
     hn::Vec<D> red[kVectors], green[kVectors], blue[kVectors];
 
     HWY_INLINE void clear(D df) {
@@ -123,23 +118,14 @@ struct Registers {
     }
 };
 
-// The cells of one block that are summed together; 8-bit ones by quarters, so that those that
-// hold only zeroes, as the finest of a block's coefficients often do, cost nothing.
+// The cells of one block that are summed together.
 class BlockValues {
   public:
-    static constexpr std::size_t kQuarters = 4;
-    static constexpr std::size_t kQuarterSlots = kBlockSize / kQuarters;
-
-    std::array<CellValues<std::int8_t>, kQuarters> bits8;
+    CellValues<std::int8_t> bits8;
     CellValues<std::int16_t> bits16;
     CellValues<float> floats;
 
-    void clear() {
-        for (auto& quarter : bits8) {
-            quarter.count = 0;
-        }
-        bits16.count = floats.count = 0;
-    }
+    void clear() { bits8.count = bits16.count = floats.count = 0; }
 
     // Sums pass through registers once for all cells.
     void add_to(float* HWY_RESTRICT sums, float* HWY_RESTRICT total) const {
@@ -173,15 +159,13 @@ class BlockValues {
         BlockRegisters registers;
         const std::size_t slots = BlockRegisters::kVectors * hn::Lanes(df);
         for (std::size_t slot = 0; slot < kBlockSize; slot += slots) {
-            if (bits8[slot / kQuarterSlots].count + bits16.count + floats.count != 0) {
-                part(registers, slot);
-            }
+            part(registers, slot);
         }
     }
 
     HWY_INLINE void add_part(BlockRegisters& registers, std::size_t slot) const {
         const hn::CappedTag<float, 16> df;
-        registers.add(df, bits8[slot / kQuarterSlots], slot % kQuarterSlots);
+        registers.add(df, bits8, slot);
         registers.add(df, bits16, slot);
         registers.add(df, floats, slot);
     }

@@ -1,6 +1,5 @@
-// The cells of a group of segments, sorted by block, but for the sparse ones. Compiled once per
-// instruction set, as Highway's own "-inl" headers are: counting bits is one instruction on
-// most.
+// The dense cells of a group of segments, sorted by block. Compiled once per instruction set,
+// as Highway's own "-inl" headers are, for what is handed out on the way is inlined.
 #if defined(RELUME_CELL_LISTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELUME_CELL_LISTS_INL_H
 #undef RELUME_CELL_LISTS_INL_H
@@ -27,22 +26,23 @@ struct ListedCell {
 };
 
 // Segments, at most kMaxSegments, are walked once, in the order of memory, each cell asked for
-// a while before it is passed; the blocks' lists then find it in the cache. Sparse cells, and
-// the sparse parts of split ones, are not listed but handed out on the way: most hold so little
-// that to list them would cost more than to add them.
+// a while before it is passed; the blocks' lists then find it in the cache. Cells of strips,
+// and the high parts of split ones, are not listed but handed out on the way: most hold so
+// little that to list them would cost more than to add them.
 template <std::size_t kMaxSegments>
 class CellLists {
   public:
     // Replaces what the lists hold by the cells of `count` segments; calls
-    // on_sparse(segment, block, cell, scale), the value being scale times what the cell holds.
-    template <typename SegmentAt, typename OnSparse>
+    // on_strips(segment, block, cell, scale), which returns the end of the cell, the value
+    // being scale times what the cell holds.
+    template <typename SegmentAt, typename OnStrips>
     HWY_INLINE void fill(std::size_t count,
                          const SegmentAt& segment_at,
                          std::uint32_t block_count,
-                         const OnSparse& on_sparse) {
+                         const OnStrips& on_strips) {
         counts_.fill(0);
         for (std::size_t s = 0; s < count; ++s) {
-            walk(segment_at(s), static_cast<std::uint16_t>(s), block_count, on_sparse);
+            walk(segment_at(s), static_cast<std::uint16_t>(s), block_count, on_strips);
         }
     }
 
@@ -57,65 +57,38 @@ class CellLists {
     // The next segment is as a rule the next in memory.
     static constexpr std::size_t kPrefetchBytes = 1024;
 
-    template <typename OnSparse>
+    template <typename OnStrips>
     HWY_INLINE void walk(const transport::SegmentView& segment,
                          std::uint16_t number,
                          std::uint32_t block_count,
-                         const OnSparse& on_sparse) {
+                         const OnStrips& on_strips) {
         const std::uint8_t* cell = segment.cells;
         const std::uint8_t* ahead = cell;
         for (std::uint32_t first = 0; first < block_count; first += kTagsPerWord) {
             const std::uint32_t count = std::min(kTagsPerWord, block_count - first);
             std::uint64_t tags = 0;
             std::memcpy(&tags, segment.tags + first / 2, transport::tag_bytes(count));
-            std::uint64_t present = tags | (tags >> 1U);
-            present = (present | (present >> 2U)) & 0x1111'1111'1111'1111U;
+            std::uint64_t present = transport::occupied_tags(tags);
             for (; present != 0; present &= present - 1) {
                 const auto bit = static_cast<unsigned>(std::countr_zero(present));
                 auto tag = static_cast<transport::CellTag>((tags >> bit) & 0xFU);
                 const std::uint32_t block = first + bit / 4;
                 if (transport::is_split(tag)) {
-                    on_sparse(number, block, cell, static_cast<float>(transport::kHighPart));
-                    cell += sparse_size(cell);
+                    cell = on_strips(number, block, cell,
+                                     static_cast<float>(transport::kHighPart));
                     tag = transport::low_tag(tag);
                 }
-                if (tag == transport::CellTag::sparse8) {
-                    on_sparse(number, block, cell, 1.0F);
-                    cell += sparse_size(cell);
+                if (tag == transport::CellTag::strips8) {
+                    cell = on_strips(number, block, cell, 1.0F);
                 } else {
                     cells_[block][counts_[block]++] = {cell, tag, number};
-                    cell += size_of(tag, cell);
+                    cell += transport::cell_bytes(tag, cell);
                 }
                 for (; ahead < cell + kPrefetchBytes; ahead += kCacheLine) {
                     __builtin_prefetch(ahead);
                 }
             }
         }
-    }
-
-    static std::size_t sparse_size(const std::uint8_t* cell) {
-        return 1 + 2 * std::size_t{cell[0]};
-    }
-
-    // As transport::cell_bytes, for the encodings there are many of.
-    static std::size_t size_of(transport::CellTag tag, const std::uint8_t* cell) {
-        switch (tag) {
-            case transport::CellTag::dense8:
-                return transport::kBlockSize;
-            case transport::CellTag::bitmap8:
-                return transport::kBitmapBytes + population(cell);
-            default:
-                return transport::cell_bytes(tag, cell);
-        }
-    }
-    static std::size_t population(const std::uint8_t* bitmap) {
-        int population = 0;
-        for (std::size_t i = 0; i < transport::kBitmapBytes; i += sizeof(std::uint64_t)) {
-            std::uint64_t word = 0;
-            std::memcpy(&word, bitmap + i, sizeof(word));
-            population += std::popcount(word);
-        }
-        return static_cast<std::size_t>(population);
     }
 
     // Rows a power of two apart would all begin in the same set of the first-level cache.

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <cmath>
+
 HWY_BEFORE_NAMESPACE();
 namespace relume::engine::HWY_NAMESPACE {
 
@@ -15,24 +17,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Four vectors of sums stay in registers while all rows go by.
 template <typename Float>
-HWY_INLINE void add_rows_of(const std::int16_t* HWY_RESTRICT table,
+HWY_INLINE void add_rows_of(const std::int8_t* HWY_RESTRICT table,
                             const WeightedRow* HWY_RESTRICT rows,
                             std::size_t row_count,
                             std::size_t count,
                             Float* HWY_RESTRICT sums) {
+    std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR  // whose multiplication and addition are not fused
     const hn::ScalableTag<Float> df;
     const hn::Rebind<std::int32_t, decltype(df)> d32;
-    const hn::Rebind<std::int16_t, decltype(df)> d16;
+    const hn::Rebind<std::int8_t, decltype(df)> d8;
     const std::size_t lanes = hn::Lanes(df);
     const auto values = [&](std::size_t at) HWY_ATTR {
-        const auto integers = hn::PromoteTo(d32, hn::LoadU(d16, table + at));
+        const auto integers = hn::PromoteTo(d32, hn::LoadU(d8, table + at));
         if constexpr (sizeof(Float) == sizeof(double)) {
             return hn::PromoteTo(df, integers);
         } else {
             return hn::ConvertTo(df, integers);
         }
     };
-    std::size_t i = 0;
     for (; i + 4 * lanes <= count; i += 4 * lanes) {
         auto sum0 = hn::LoadU(df, sums + i);
         auto sum1 = hn::LoadU(df, sums + i + lanes);
@@ -41,10 +44,10 @@ HWY_INLINE void add_rows_of(const std::int16_t* HWY_RESTRICT table,
         for (std::size_t row = 0; row < row_count; ++row) {
             const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
             const std::size_t first = rows[row].first + i;
-            sum0 = hn::Add(sum0, hn::Mul(weight, values(first)));
-            sum1 = hn::Add(sum1, hn::Mul(weight, values(first + lanes)));
-            sum2 = hn::Add(sum2, hn::Mul(weight, values(first + 2 * lanes)));
-            sum3 = hn::Add(sum3, hn::Mul(weight, values(first + 3 * lanes)));
+            sum0 = hn::MulAdd(weight, values(first), sum0);
+            sum1 = hn::MulAdd(weight, values(first + lanes), sum1);
+            sum2 = hn::MulAdd(weight, values(first + 2 * lanes), sum2);
+            sum3 = hn::MulAdd(weight, values(first + 3 * lanes), sum3);
         }
         hn::StoreU(sum0, df, sums + i);
         hn::StoreU(sum1, df, sums + i + lanes);
@@ -55,19 +58,20 @@ HWY_INLINE void add_rows_of(const std::int16_t* HWY_RESTRICT table,
         auto sum = hn::LoadU(df, sums + i);
         for (std::size_t row = 0; row < row_count; ++row) {
             const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
-            sum = hn::Add(sum, hn::Mul(weight, values(rows[row].first + i)));
+            sum = hn::MulAdd(weight, values(rows[row].first + i), sum);
         }
         hn::StoreU(sum, df, sums + i);
     }
+#endif
     for (; i < count; ++i) {
         for (std::size_t row = 0; row < row_count; ++row) {
-            sums[i] += static_cast<Float>(rows[row].weight) *
-                       static_cast<Float>(table[rows[row].first + i]);
+            sums[i] = std::fma(static_cast<Float>(rows[row].weight),
+                               static_cast<Float>(table[rows[row].first + i]), sums[i]);
         }
     }
 }
 
-void add_rows_loop(const std::int16_t* HWY_RESTRICT table,
+void add_rows_loop(const std::int8_t* HWY_RESTRICT table,
                    const WeightedRow* HWY_RESTRICT rows,
                    std::size_t row_count,
                    std::size_t count,
@@ -75,7 +79,7 @@ void add_rows_loop(const std::int16_t* HWY_RESTRICT table,
     add_rows_of(table, rows, row_count, count, sums);
 }
 
-void add_rows_in_double_loop(const std::int16_t* HWY_RESTRICT table,
+void add_rows_in_double_loop(const std::int8_t* HWY_RESTRICT table,
                              const WeightedRow* HWY_RESTRICT rows,
                              std::size_t row_count,
                              std::size_t count,
@@ -122,7 +126,7 @@ HWY_EXPORT(add_rows_loop);
 HWY_EXPORT(add_rows_in_double_loop);
 HWY_EXPORT(squared_norm_loop);
 
-void add_rows(std::span<const std::int16_t> table,
+void add_rows(std::span<const std::int8_t> table,
               std::span<const WeightedRow> rows,
               std::span<float> sums) {
     apply_forced_target();
@@ -130,7 +134,7 @@ void add_rows(std::span<const std::int16_t> table,
     (table.data(), rows.data(), rows.size(), sums.size(), sums.data());
 }
 
-void add_rows(std::span<const std::int16_t> table,
+void add_rows(std::span<const std::int8_t> table,
               std::span<const WeightedRow> rows,
               std::span<double> sums) {
     apply_forced_target();

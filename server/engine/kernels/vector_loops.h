@@ -14,11 +14,11 @@ struct WeightedRow {
 };
 
 // sums[i] += Σ_rows weight·table[first + i], each sum in the order of the rows, every product
-// rounded before it is added: the same bits on every instruction set.
-void add_rows(std::span<const std::int16_t> table,
+// added without rounding in between: the same bits on every instruction set.
+void add_rows(std::span<const std::int8_t> table,
               std::span<const WeightedRow> rows,
               std::span<float> sums);
-void add_rows(std::span<const std::int16_t> table,
+void add_rows(std::span<const std::int8_t> table,
               std::span<const WeightedRow> rows,
               std::span<double> sums);
 

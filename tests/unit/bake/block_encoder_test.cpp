@@ -83,7 +83,7 @@ TEST(BlockEncoder, ReceiversWithoutRowsCostNoCoefficients) {
     StoredRows stored;
     const std::array<float, 1> steps{1};
     const transport::EncodedBlock block = encode_block(rows, steps, stored);
-    EXPECT_EQ(block.tag(0), transport::CellTag::sparse8);
+    EXPECT_EQ(block.tag(0), transport::CellTag::strips8);
     EXPECT_EQ(transport::cell_nonzeros(block.tag(0), block.cell(0).data()), 1U);
 }
 

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -20,10 +21,10 @@ TYPED_TEST_SUITE(AddRows, Floats);
 // no multiple of any vector, from any alignment, rows given twice and none at all.
 TYPED_TEST(AddRows, GivesTheBitsOfThePlainLoopOnEveryTarget) {
     std::mt19937 random(1);
-    std::uniform_int_distribution<int> value(-32768, 32767);
-    std::vector<std::int16_t> table(5000);
-    for (std::int16_t& entry : table) {
-        entry = static_cast<std::int16_t>(value(random));
+    std::uniform_int_distribution<int> value(-128, 127);
+    std::vector<std::int8_t> table(5000);
+    for (std::int8_t& entry : table) {
+        entry = static_cast<std::int8_t>(value(random));
     }
     for (const std::size_t length : {1UL, 15UL, 16UL, 64UL, 67UL, 256UL, 32UL, 301UL}) {
         for (const std::size_t count : {0UL, 1UL, 2UL, 50UL}) {
@@ -35,8 +36,9 @@ TYPED_TEST(AddRows, GivesTheBitsOfThePlainLoopOnEveryTarget) {
             std::vector<TypeParam> expected(length, TypeParam{0.75});
             for (const WeightedRow& row : rows) {
                 for (std::size_t i = 0; i < length; ++i) {
-                    expected[i] += static_cast<TypeParam>(row.weight) *
-                                   static_cast<TypeParam>(table[row.first + i]);
+                    expected[i] =
+                        std::fma(static_cast<TypeParam>(row.weight),
+                                 static_cast<TypeParam>(table[row.first + i]), expected[i]);
                 }
             }
             for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {

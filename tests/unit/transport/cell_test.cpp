@@ -28,9 +28,9 @@ TEST(Cell, TakesAnEncodingThatFits) {
         std::size_t bytes;
     };
     const Case cases[] = {
-        {0, 0, CellTag::empty, 0},           {1, -128, CellTag::sparse8, 3},
-        {31, 1, CellTag::sparse8, 63},       {256, 127, CellTag::dense8, 256},
-        {1, 128, CellTag::split_sparse8, 6}, {256, -32768, CellTag::dense16, 512},
+        {0, 0, CellTag::empty, 0},           {1, -128, CellTag::strips8, 4},
+        {31, 1, CellTag::strips8, 94},       {256, 127, CellTag::dense8, 256},
+        {1, 128, CellTag::split_strips8, 8}, {256, -32768, CellTag::dense16, 512},
         {256, 32767, CellTag::dense16, 512}, {1, 32768, CellTag::dense32f, 1024},
     };
     for (const Case& expected : cases) {
@@ -61,13 +61,13 @@ TEST(Cell, MatchesTheWorkedExample) {
     cell[5] = -2;
     cell[200] = 7;
     std::vector<std::uint8_t> bytes;
-    EXPECT_EQ(append_cell(cell, bytes), CellTag::sparse8);
-    EXPECT_EQ(bytes, (std::vector<std::uint8_t>{0x02, 0x05, 0xc8, 0xfe, 0x07}));
+    EXPECT_EQ(append_cell(cell, bytes), CellTag::strips8);
+    EXPECT_EQ(bytes, (std::vector<std::uint8_t>{0x02, 0x00, 0x20, 0x19, 0x01, 0xfe, 0x07}));
     cell[200] = 263;
     bytes.clear();
-    EXPECT_EQ(append_cell(cell, bytes), CellTag::split_sparse8);
-    EXPECT_EQ(bytes,
-              (std::vector<std::uint8_t>{0x01, 0xc8, 0x01, 0x02, 0x05, 0xc8, 0xfe, 0x07}));
+    EXPECT_EQ(append_cell(cell, bytes), CellTag::split_strips8);
+    EXPECT_EQ(bytes, (std::vector<std::uint8_t>{0x01, 0x19, 0x01, 0x01, 0x02, 0x00, 0x20, 0x19,
+                                                0x01, 0xfe, 0x07}));
 }
 
 // In every encoding that fits.
@@ -97,7 +97,7 @@ RC_GTEST_PROP(Cell, ComesBackFromItsBytes, ()) {
         for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
             RC_ASSERT(decoded[slot] == static_cast<float>(cell[slot]));
         }
-        RC_ASSERT(cell_nonzeros(tag, bytes.data()) == shape.nonzeros);
+        RC_ASSERT(cell_nonzeros(tag, bytes.data()) == shape.all.nonzeros);
     }
 }
 
@@ -124,18 +124,31 @@ RC_GTEST_PROP(Cell, ValidationNeverReadsBeyondTheBytes, ()) {
 
 TEST(Cell, RefusesWhatTheFormatForbids) {
     const std::vector<std::uint8_t> zeros(2048, 0);
-    EXPECT_THROW(validated_cell_bytes(10, zeros), TransportError);
-    EXPECT_THROW(validated_cell_bytes(7, zeros), TransportError) << "split without a high part";
-    EXPECT_THROW(validated_cell_bytes(8, std::vector<std::uint8_t>{1, 0, 1}), TransportError)
-        << "split without low parts";
-    EXPECT_THROW(validated_cell_bytes(2, zeros), TransportError) << "bitmap without a bit";
-    EXPECT_THROW(validated_cell_bytes(3, zeros), TransportError) << "sparse without a value";
-    EXPECT_THROW(validated_cell_bytes(3, std::vector<std::uint8_t>{2, 9, 9, 1, 1}),
-                 TransportError)
-        << "slots not ascending";
+    const auto refuses = [](int tag, const std::vector<std::uint8_t>& bytes) {
+        EXPECT_THROW(validated_cell_bytes(static_cast<std::uint8_t>(tag), bytes),
+                     TransportError);
+    };
+    refuses(kCellTagCount, zeros);
+    {
+        SCOPED_TRACE("split without a high part");
+        refuses(5, zeros);
+    }
+    {
+        SCOPED_TRACE("split without low parts");
+        refuses(6, {1, 0, 1, 1});
+    }
+    {
+        SCOPED_TRACE("strips: none, not ascending, beyond the block, empty, values missing");
+        refuses(2, zeros);
+        refuses(2, {2, 9, 1, 9, 1, 1, 1});
+        refuses(2, {1, 32, 1, 1});
+        refuses(2, {1, 4, 0});
+        refuses(2, {1, 4, 3, 1});
+        refuses(2, {3, 4, 3});
+    }
     EXPECT_THROW(validated_cell_bytes(1, std::span(zeros).first(255)), TransportError);
     std::vector<std::uint8_t> nan(1024, 0xff);
-    EXPECT_THROW(validated_cell_bytes(6, nan), TransportError);
+    EXPECT_THROW(validated_cell_bytes(4, nan), TransportError);
 }
 
 TEST(Quantise, IsNeverOffByMoreThanTheDeadZone) {
@@ -154,10 +167,10 @@ TEST(Quantise, IsNeverOffByMoreThanTheDeadZone) {
 }
 
 TEST(Quantise, DropsWhatIsInTheDeadZoneAndSaturates) {
-    EXPECT_EQ(quantised(0.599F), 0);
-    EXPECT_EQ(quantised(-0.599F), 0);
-    EXPECT_EQ(quantised(0.601F), 1);
-    EXPECT_EQ(quantised(-0.601F), -1);
+    EXPECT_EQ(quantised(1.599F), 0);
+    EXPECT_EQ(quantised(-1.599F), 0);
+    EXPECT_EQ(quantised(1.601F), 2);
+    EXPECT_EQ(quantised(-1.601F), -2);
     EXPECT_EQ(quantised(-1e20F), -(1 << 30));
 }
 

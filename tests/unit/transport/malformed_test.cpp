@@ -109,7 +109,7 @@ TEST(MalformedHeader, EveryFieldIsChecked) {
         EXPECT_THROW(parse(header, size), TransportError);
     };
     refuses([](ShardHeader& header) { header.magic[0] = 'X'; });
-    refuses([](ShardHeader& header) { header.version = 2; });
+    refuses([](ShardHeader& header) { header.version = kFormatVersion + 1; });
     refuses([](ShardHeader& header) { header.block_count = 0; });
     refuses([](ShardHeader& header) { header.block_count = 65; });
     refuses([](ShardHeader& header) { header.channels = 2; });

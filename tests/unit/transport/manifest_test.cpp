@@ -100,7 +100,7 @@ TEST(Manifest, RefusesEveryWrongValue) {
     using Change = std::function<void(nlohmann::json&)>;
     const Change changes[] = {
         [](auto& m) { m["format"] = "other"; },
-        [](auto& m) { m["version"] = 2; },
+        [](auto& m) { m["version"] = kFormatVersion + 1; },
         [](auto& m) { m["kind"] = "curve"; },
         [](auto& m) { m.erase("image"); },
         [](auto& m) { m["image"] = 3; },
