@@ -4,10 +4,12 @@
 #include "server/engine/kernels/accumulate_batch.h"
 #include "server/engine/kernels/vector_loops.h"
 
+#include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -96,20 +98,23 @@ WeightedSegment weighted(const transport::Transport& transport,
     return weighted;
 }
 
-// The segments of the columns in one shard.
-void gather_changes(const transport::Transport& transport,
-                    std::size_t shard,
-                    std::span<const ColumnChange> changes,
-                    std::vector<WeightedSegment>& segments) {
+// The segments of the columns in one shard; the blocks in which they have cells.
+std::uint64_t gather_changes(const transport::Transport& transport,
+                             std::size_t shard,
+                             std::span<const ColumnChange> changes,
+                             std::vector<WeightedSegment>& segments) {
     const transport::ShardReader& reader = transport.shards()[shard];
+    std::uint64_t occupied = 0;
     for (const ColumnChange& change : changes) {
         for (std::uint32_t k = 0; k < transport.channel_count(); ++k) {
             const transport::SegmentView segment = reader.segment(change.column, k);
             if (!segment.empty()) {
                 segments.push_back(weighted(transport, segment, change, k));
+                occupied |= segment.occupied_blocks(reader.block_count());
             }
         }
     }
+    return occupied;
 }
 
 // Where groups would end if all columns of a band were summed.
@@ -159,14 +164,39 @@ void gather_lighting(const Scene& scene,
     }
 }
 
+std::uint64_t all_blocks(const Scene& scene, std::size_t shard) {
+    const std::uint32_t count = scene.transport().shards()[shard].block_count();
+    return ~std::uint64_t{0} >> (transport::kMaxBlocksPerShard - count);
+}
+
+template <typename Visit>
+void for_each_bit(std::uint64_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) {
+        visit(static_cast<unsigned>(std::countr_zero(bits)));
+    }
+}
+
 bool has_band(std::uint32_t bands, std::uint32_t band) {
     return ((bands >> band) & 1U) != 0;
 }
 
 }  // namespace
 
+bool BandImages::Drift::add(double norm_of_changes) {
+    constexpr unsigned kUpdatesUnmeasured = 16;
+    constexpr double kLoose = 2;
+    const bool begins = norm == 0 && updates_since == 0;
+    norm += norm_of_changes;
+    known_norm = begins ? norm : known_norm;
+    if (updates_since >= kUpdatesUnmeasured || norm > kLoose * known_norm) {
+        return true;
+    }
+    ++updates_since;
+    return false;
+}
+
 double BandImages::Drift::error() const {
-    return std::numeric_limits<float>::epsilon() / 2 * largest_norm * std::sqrt(updates);
+    return std::numeric_limits<float>::epsilon() / 2 * std::sqrt(squared_norms);
 }
 
 BandImages::BandImages(const Scene& scene)
@@ -174,6 +204,7 @@ BandImages::BandImages(const Scene& scene)
       bands_(scene.band_count(), std::vector<float>(scene.sum_count())),
       total_(scene.sum_count()),
       drift_(scene.band_count()),
+      occupied_(scene.transport().shards().size() * scene.band_count()),
       energies_(scene.transport().shards().size() * scene.band_count()) {}
 
 std::span<float> BandImages::part(std::vector<float>& image, std::size_t shard) const {
@@ -192,25 +223,51 @@ void BandImages::update_together(std::span<const Update> updates) {
         return;
     }
     const Scene& scene = *updates.front().images->scene_;
-    tbb::parallel_for(std::size_t{0}, scene.transport().shards().size(),
-                      [&](std::size_t shard) { update_shard(shard, updates); });
+    boost::container::small_vector<std::uint32_t, kMaxBatchMembers> bands_to_measure;
     for (const Update& update : updates) {
-        for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-            const bool cleared = has_band(update.bands_to_clear, band);
-            if (cleared || !changes_of_band(update.changes, scene.bands(), band).empty()) {
-                update.images->record_drift(band, cleared);
-            }
+        bands_to_measure.push_back(update.images->begin_update(update));
+    }
+    tbb::parallel_for(
+        std::size_t{0}, scene.transport().shards().size(), [&](std::size_t shard) {
+            update_shard(shard, updates, {bands_to_measure.data(), updates.size()});
+        });
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        updates[i].images->end_update(updates[i], bands_to_measure[i]);
+    }
+}
+
+std::uint32_t BandImages::begin_update(const Update& update) {
+    std::uint32_t bands_to_measure = 0;
+    for (std::uint32_t band = 0; band < drift_.size(); ++band) {
+        const auto changes = changes_of_band(update.changes, scene_->bands(), band);
+        if (has_band(update.bands_to_clear, band)) {
+            drift_[band] = {};
+        }
+        if (!changes.empty() && drift_[band].add(norm_of(changes))) {
+            bands_to_measure |= 1U << band;
+        }
+    }
+    return bands_to_measure;
+}
+
+void BandImages::end_update(const Update& update, std::uint32_t bands_measured) {
+    for (std::uint32_t band = 0; band < drift_.size(); ++band) {
+        Drift& drift = drift_[band];
+        if (has_band(bands_measured, band)) {
+            drift.norm = drift.known_norm = measured_norm(band);
+            drift.updates_since = 0;
+        }
+        if (!changes_of_band(update.changes, scene_->bands(), band).empty()) {
+            drift.update_is_done();
         }
     }
 }
 
-void BandImages::update_shard(std::size_t shard, std::span<const Update> updates) {
+void BandImages::update_shard(std::size_t shard,
+                              std::span<const Update> updates,
+                              std::span<const std::uint32_t> bands_to_measure) {
     const Scene& scene = *updates.front().images->scene_;
     SweptSegments& swept = SweptSegments::of_this_thread();
-    const auto is_touched = [&](const Update& update, std::uint32_t band) {
-        return has_band(update.bands_to_clear, band) ||
-               !changes_of_band(update.changes, scene.bands(), band).empty();
-    };
     for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
         swept.begin();
         for (const Update& update : updates) {
@@ -223,16 +280,16 @@ void BandImages::update_shard(std::size_t shard, std::span<const Update> updates
                 float* total = update.bands_to_clear != 0
                                    ? nullptr
                                    : images.part(images.total_, shard).data();
-                gather_changes(
+                images.occupied(shard, band) |= gather_changes(
                     scene.transport(), shard, of_band,
                     swept.add({.sums = images.part(images.bands_[band], shard).data(),
                                .total = total}));
             }
         }
         swept.accumulate(scene.transport().shards()[shard].block_count());
-        for (const Update& update : updates) {
-            if (is_touched(update, band)) {
-                update.images->record_energy(shard, band);
+        for (std::size_t i = 0; i < updates.size(); ++i) {
+            if (has_band(bands_to_measure[i], band)) {
+                updates[i].images->measure_energy(shard, band);
             }
         }
     }
@@ -249,9 +306,8 @@ void BandImages::rebuild_together(std::size_t first_shard,
     tbb::parallel_for(first_shard, last_shard,
                       [&](std::size_t shard) { rebuild_shard(shard, rebuilds); });
     for (const Rebuild& rebuild : rebuilds) {
-        for (std::uint32_t band = 0; band < rebuild.images->bands_.size(); ++band) {
-            rebuild.images->record_drift(band, true);
-        }
+        std::fill(rebuild.images->drift_.begin(), rebuild.images->drift_.end(),
+                  Drift::of_unknown_norm());
     }
 }
 
@@ -263,49 +319,77 @@ void BandImages::rebuild_shard(std::size_t shard, std::span<const Rebuild> rebui
         for (const Rebuild& rebuild : rebuilds) {
             BandImages& images = *rebuild.images;
             images.clear_band(shard, band);
+            images.occupied(shard, band) = all_blocks(scene, shard);
             gather_lighting(scene, shard, band, rebuild.lighting,
                             swept.add({.sums = images.part(images.bands_[band], shard).data(),
                                        .total = nullptr}));
         }
         swept.accumulate(scene.transport().shards()[shard].block_count());
-        for (const Rebuild& rebuild : rebuilds) {
-            rebuild.images->record_energy(shard, band);
-        }
     }
     for (const Rebuild& rebuild : rebuilds) {
         rebuild.images->sum_bands(shard);
     }
 }
 
+std::span<float> BandImages::block(std::vector<float>& image,
+                                   std::size_t shard,
+                                   unsigned block) const {
+    return part(image, shard).subspan(block * kSumsPerBlock, kSumsPerBlock);
+}
+
 void BandImages::clear_band(std::size_t shard, std::uint32_t band) {
-    const std::span<float> image = part(bands_[band], shard);
-    std::fill(image.begin(), image.end(), 0.0F);
+    for_each_bit(occupied(shard, band), [&](unsigned b) {
+        const std::span<float> sums = block(bands_[band], shard, b);
+        std::fill(sums.begin(), sums.end(), 0.0F);
+    });
+    occupied(shard, band) = 0;
 }
 
-void BandImages::record_energy(std::size_t shard, std::uint32_t band) {
-    energies_[shard * bands_.size() + band] = squared_norm(part(bands_[band], shard));
+void BandImages::measure_energy(std::size_t shard, std::uint32_t band) {
+    double energy = 0;
+    for_each_bit(occupied(shard, band),
+                 [&](unsigned b) { energy += squared_norm(block(bands_[band], shard, b)); });
+    energies_[shard * bands_.size() + band] = energy;
 }
 
+// Block by block, so that the total stays in the first-level cache.
 void BandImages::sum_bands(std::size_t shard) {
-    const std::span<float> total = part(total_, shard);
-    std::copy_n(part(bands_[0], shard).begin(), total.size(), total.begin());
-    for (std::size_t band = 1; band < bands_.size(); ++band) {
-        const std::span<const float> image = part(bands_[band], shard);
-        for (std::size_t i = 0; i < total.size(); ++i) {
-            total[i] += image[i];
+    for_each_bit(all_blocks(*scene_, shard), [&](unsigned b) {
+        const std::span<float> total = block(total_, shard, b);
+        std::fill(total.begin(), total.end(), 0.0F);
+        for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+            if (((occupied(shard, band) >> b) & 1U) != 0) {
+                const std::span<const float> sums = block(bands_[band], shard, b);
+                for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
+                    total[i] += sums[i];
+                }
+            }
         }
-    }
+    });
 }
 
-void BandImages::record_drift(std::uint32_t band, bool cleared) {
+double BandImages::measured_norm(std::uint32_t band) const {
     double squared_norm = 0;
     for (std::size_t i = band; i < energies_.size(); i += bands_.size()) {
         squared_norm += energies_[i];
     }
-    Drift& drift = drift_[band];
-    drift = cleared ? Drift{} : drift;
-    drift.largest_norm = std::max(drift.largest_norm, std::sqrt(squared_norm));
-    drift.updates += 1;
+    return std::sqrt(squared_norm);
+}
+
+// Triangle inequality; of the columns as they are stored.
+double BandImages::norm_of(std::span<const ColumnChange> changes) const {
+    const std::span<const float> norms = scene_->weights(wire::Priority::transport);
+    const std::size_t count = scene_->coefficient_count();
+    double sum = 0;
+    for (const ColumnChange& change : changes) {
+        double squared = 0;
+        for (std::size_t c = 0; c < kColours; ++c) {
+            const double norm = double{change.amount[c]} * norms[c * count + change.column];
+            squared += norm * norm;
+        }
+        sum += std::sqrt(squared);
+    }
+    return sum;
 }
 
 double BandImages::rounding_error() const {

@@ -27,7 +27,7 @@ class BandImages {
     [[nodiscard]] std::span<const float> band(std::uint32_t band) const { return bands_[band]; }
 
     // Estimated rounding error left in the total by additions since each band was last made
-    // from nothing, as an L2 norm: per band ε/2 · (largest norm it had) · √updates.
+    // from nothing, as an L2 norm: per band ε/2 · √(Σ_updates ‖band‖²).
     [[nodiscard]] double rounding_error() const;
     // The band that contributes most to it.
     [[nodiscard]] std::uint32_t most_drifted_band() const;
@@ -54,26 +54,50 @@ class BandImages {
                                  std::span<const Rebuild> rebuilds);
 
   private:
+    // What additions to a band have left in it. Its norm is measured now and then, for that
+    // takes as long as adding a few columns; in between it is bounded by what was added.
     struct Drift {
-        double largest_norm = 0;
-        double updates = 0;
+        double norm = 0;             // not less than ‖band‖
+        double known_norm = 0;       // when it was last measured, or begun from nothing
+        unsigned updates_since = 0;  // it was known
+        double squared_norms = 0;    // Σ_updates
 
+        // Made from nothing, nobody knows how large.
+        [[nodiscard]] static Drift of_unknown_norm() { return {.updates_since = ~0U}; }
+        // An update adds so much at most; whether the norm must be measured after it.
+        bool add(double norm_of_changes);
+        void update_is_done() { squared_norms += norm * norm; }
         [[nodiscard]] double error() const;
     };
 
-    static void update_shard(std::size_t shard, std::span<const Update> updates);
+    // `bands_to_measure` of each update.
+    static void update_shard(std::size_t shard,
+                             std::span<const Update> updates,
+                             std::span<const std::uint32_t> bands_to_measure);
+    // What an update does to the drift; the mask of the bands whose norm is to be measured.
+    [[nodiscard]] std::uint32_t begin_update(const Update& update);
+    void end_update(const Update& update, std::uint32_t bands_measured);
     static void rebuild_shard(std::size_t shard, std::span<const Rebuild> rebuilds);
     void clear_band(std::size_t shard, std::uint32_t band);
-    void record_energy(std::size_t shard, std::uint32_t band);
+    void measure_energy(std::size_t shard, std::uint32_t band);
     void sum_bands(std::size_t shard);
-    void record_drift(std::uint32_t band, bool cleared);
+    [[nodiscard]] double measured_norm(std::uint32_t band) const;
+    [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
     [[nodiscard]] std::span<float> part(std::vector<float>& image, std::size_t shard) const;
+    [[nodiscard]] std::uint64_t& occupied(std::size_t shard, std::uint32_t band) {
+        return occupied_[shard * bands_.size() + band];
+    }
+    // Sums of the shard's block.
+    [[nodiscard]] std::span<float> block(std::vector<float>& image,
+                                         std::size_t shard,
+                                         unsigned block) const;
 
     const Scene* scene_;
     std::vector<std::vector<float>> bands_;
     std::vector<float> total_;
-    std::vector<Drift> drift_;      // [bands]
-    std::vector<double> energies_;  // [shards][bands], Σ of squared band sums
+    std::vector<Drift> drift_;             // [bands]
+    std::vector<std::uint64_t> occupied_;  // [shards][bands], blocks that are not zero all over
+    std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
 };
 
 }  // namespace relume::engine

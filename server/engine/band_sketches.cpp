@@ -100,10 +100,10 @@ void BandSketches::apply(const Plan& plan) {
     }
 }
 
-std::vector<double> BandSketches::sum() const {
-    std::vector<double> total(size_);
-    for (std::size_t i = 0; i < bands_.size(); ++i) {
-        total[i % size_] += bands_[i];
+double BandSketches::sum(std::size_t r) const {
+    double total = 0;
+    for (std::size_t i = r; i < bands_.size(); i += size_) {
+        total += bands_[i];
     }
     return total;
 }

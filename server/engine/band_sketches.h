@@ -26,8 +26,9 @@ class BandSketches {
     [[nodiscard]] std::span<const double> band(std::uint32_t band) const {
         return std::span(bands_).subspan(band * size_, size_);
     }
-    // Of all bands, [3][rows].
-    [[nodiscard]] std::vector<double> sum() const;
+    // 3·rows, and row r of all bands together.
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] double sum(std::size_t r) const;
 
   private:
     const Scene* scene_;

@@ -2,6 +2,7 @@
 
 #include "server/engine/kernels/accumulate_batch.h"
 
+#include <boost/container/small_vector.hpp>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -20,11 +21,11 @@ void FullProduct::start(std::span<const float> lighting, std::size_t first_shard
 
 std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> products,
                                             std::uint64_t bytes) {
-    std::vector<FullProduct*> by_shard(products.begin(), products.end());
-    std::stable_sort(by_shard.begin(), by_shard.end(),
-                     [](const FullProduct* a, const FullProduct* b) {
-                         return a->next_shard_ < b->next_shard_;
-                     });
+    boost::container::small_vector<FullProduct*, kMaxBatchMembers> by_shard(products.begin(),
+                                                                            products.end());
+    std::sort(by_shard.begin(), by_shard.end(), [](const FullProduct* a, const FullProduct* b) {
+        return a->next_shard_ < b->next_shard_;
+    });
     std::uint64_t read = 0;
     for (auto first = by_shard.begin(); first != by_shard.end();) {
         const auto last = std::find_if(first, by_shard.end(), [&](const FullProduct* other) {
@@ -32,7 +33,7 @@ std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> produc
         });
         const auto count =
             std::min(last - first, static_cast<std::ptrdiff_t>(kMaxBatchMembers));
-        read += sweep({first, first + count}, bytes);
+        read += sweep(std::span(&*first, static_cast<std::size_t>(count)), bytes);
         first += count;
     }
     return read;
@@ -47,13 +48,13 @@ std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::ui
     const std::uint64_t wanted = std::max(bytes / bytes_per_shard / threads * threads, threads);
     const std::size_t first = products.front()->next_shard_;
     std::size_t last = std::min<std::uint64_t>(shards, first + wanted);
-    std::vector<BandImages::Rebuild> rebuilds;
+    boost::container::small_vector<BandImages::Rebuild, kMaxBatchMembers> rebuilds;
     for (FullProduct* product : products) {
         last = std::min(last, first + product->shards_left_);
         rebuilds.push_back(
             {.images = &product->images_.front(), .lighting = product->lighting_});
     }
-    BandImages::rebuild_together(first, last, rebuilds);
+    BandImages::rebuild_together(first, last, std::span(rebuilds.data(), rebuilds.size()));
     for (FullProduct* product : products) {
         product->next_shard_ = last % shards;
         product->shards_left_ -= last - first;

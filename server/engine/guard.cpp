@@ -17,7 +17,8 @@ Guard::Guard(const Scene& scene)
     : scene_(&scene),
       sketch_(&scene.transport().choosing_sketch()),
       target_(scene, *sketch_),
-      approximation_(target_) {}
+      approximation_(target_),
+      last_target_(target_.size()) {}
 
 const Plan& Guard::decide(const Lighting& lighting,
                           Ranking& ranking,
@@ -45,9 +46,16 @@ const Plan& Guard::decide(const Lighting& lighting,
 }
 
 bool Guard::set_target(std::span<const float> lighting) {
-    last_target_ = target_.sum();
+    for (std::size_t r = 0; r < target_.size(); ++r) {
+        last_target_[r] = target_.sum(r);
+    }
     target_.set(lighting);
-    return target_.sum() == last_target_;
+    for (std::size_t r = 0; r < target_.size(); ++r) {
+        if (target_.sum(r) != last_target_[r]) {
+            return false;
+        }
+    }
+    return true;
 }
 
 void Guard::search_nearby(const Lighting& lighting,

@@ -3,6 +3,7 @@
 #include "server/engine/kernels/accumulate_batch.h"
 #include "server/engine/relit_image.h"
 
+#include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -24,6 +25,10 @@ constexpr double kUnseenError = 1e-3;
 // And where so many sessions rest together: they have all of the transport in common then, and
 // little of what each would choose.
 constexpr std::size_t kCompanyForFullProduct = 8;
+
+// Without allocation, while no more are relit together than a sweep takes.
+template <typename T>
+using PerSession = boost::container::small_vector<T, kMaxBatchMembers>;
 
 class Stopwatch {
   public:
@@ -70,7 +75,7 @@ StepReport Session::advance(const wire::Budget& budget) {
 }
 
 void Session::advance_together(std::span<SessionTurn> turns) {
-    std::vector<Intent> intents(turns.size());
+    PerSession<Intent> intents(turns.size());
     tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
         // Times what it does: others' work must not slip in between.
         tbb::this_task_arena::isolate([&] {
@@ -78,8 +83,8 @@ void Session::advance_together(std::span<SessionTurn> turns) {
                 turns[i].session->intend({.budget = turns[i].budget, .sessions = turns.size()});
         });
     });
-    std::vector<PlannedTurn> planned;
-    std::vector<SessionTurn*> products;
+    PerSession<PlannedTurn> planned;
+    PerSession<SessionTurn*> products;
     for (std::size_t i = 0; i < turns.size(); ++i) {
         turns[i].report = {};
         if (intents[i].deed == Deed::plan) {
@@ -88,8 +93,8 @@ void Session::advance_together(std::span<SessionTurn> turns) {
             products.push_back(&turns[i]);
         }
     }
-    carry_out(planned);
-    advance_full_products(products, turns.size());
+    carry_out(std::span(planned.data(), planned.size()));
+    advance_full_products(std::span(products.data(), products.size()), turns.size());
     for (SessionTurn& turn : turns) {
         turn.session->state(turn.report);
     }
@@ -155,14 +160,14 @@ void Session::carry_out(std::span<const PlannedTurn> turns) {
     for (std::size_t first = 0; first < turns.size(); first += kMaxBatchMembers) {
         const auto batch =
             turns.subspan(first, std::min(kMaxBatchMembers, turns.size() - first));
-        std::vector<BandImages::Update> updates;
+        PerSession<BandImages::Update> updates;
         for (const PlannedTurn& turn : batch) {
             updates.push_back({.images = &turn.session->images_,
                                .bands_to_clear = turn.plan->bands_to_reset,
                                .changes = turn.plan->changes});
             bytes += turn.plan->bytes;
         }
-        BandImages::update_together(updates);
+        BandImages::update_together(std::span(updates.data(), updates.size()));
     }
     const double taken = stopwatch.milliseconds();
     for (const PlannedTurn& turn : turns) {
@@ -224,7 +229,7 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
     if (turns.empty()) {
         return;
     }
-    std::vector<FullProduct*> products;
+    PerSession<FullProduct*> products;
     std::uint64_t slice_bytes = 0;
     for (const SessionTurn* turn : turns) {
         products.push_back(&turn->session->full_product_);
@@ -250,8 +255,12 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
         });
     };
     do {
-        std::erase_if(products, [](const FullProduct* product) { return !product->running(); });
-        bytes += FullProduct::advance_together(products, slice_bytes);
+        products.erase(
+            std::remove_if(products.begin(), products.end(),
+                           [](const FullProduct* product) { return !product->running(); }),
+            products.end());
+        bytes += FullProduct::advance_together(std::span(products.data(), products.size()),
+                                               slice_bytes);
     } while (somebody_waits_for_all());
     const double taken = stopwatch.milliseconds();
     for (SessionTurn* turn : turns) {

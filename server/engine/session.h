@@ -43,9 +43,9 @@ class Session {
   public:
     Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy);
 
-    // Target lighting: coefficients of radiance in the basis of the scene, planar [3][N], all of
-    // at most kLargestCoefficient (throws std::invalid_argument otherwise, or when the count is
-    // wrong; the session is unchanged).
+    // Target lighting: coefficients of radiance in the basis of the scene, planar [3][N], all
+    // of at most kLargestCoefficient (throws std::invalid_argument otherwise, or when the count
+    // is wrong; the session is unchanged).
     void set_lighting(std::span<const float> coefficients);
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(wire::Strategy strategy) { strategy_ = strategy; }

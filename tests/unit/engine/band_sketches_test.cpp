@@ -28,6 +28,14 @@ std::vector<double> plain_sketch(const Scene& scene,
     return sums;
 }
 
+std::vector<double> sum_of(const BandSketches& bands) {
+    std::vector<double> sums;
+    for (std::size_t r = 0; r < bands.size(); ++r) {
+        sums.push_back(bands.sum(r));
+    }
+    return sums;
+}
+
 double norm(const std::vector<double>& values) {
     double sum = 0;
     for (const double value : values) {
@@ -59,7 +67,7 @@ TEST(BandSketches, HoldEveryBandOfALighting) {
                 total[i] += expected[i];
             }
         }
-        expect_near(bands.sum(), total);
+        expect_near(sum_of(bands), total);
     }
 }
 
@@ -71,7 +79,7 @@ TEST(BandSketches, KeepNothingOfALightThatIsGone) {
     const auto lighting = test::random_lighting(8, 2);
     BandSketches bands(scene, sketch);
     bands.set(lighting);
-    const auto before = bands.sum();
+    const auto before = sum_of(bands);
     Plan on;
     on.changes = {{.column = 7, .amount = {1e5F, 2e5F, 3e5F}}};
     Plan off;
@@ -80,7 +88,7 @@ TEST(BandSketches, KeepNothingOfALightThatIsGone) {
         bands.apply(on);
         bands.apply(off);
     }
-    const auto after = bands.sum();
+    const auto after = sum_of(bands);
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_NEAR(after[i], before[i], 1e-7 * norm(before));
     }

@@ -183,7 +183,8 @@ TEST_P(SelectionTest, TheShortlistHoldsWhatIsChosenOfAll) {
 
 // Lighting at the ends of what floats hold is ranked, not mistaken for equal.
 TEST_P(SelectionTest, RanksWhatCannotBeSquared) {
-    std::vector<float> huge(scene_.coefficient_count() * transport::kColours, kLargestCoefficient);
+    std::vector<float> huge(scene_.coefficient_count() * transport::kColours,
+                            kLargestCoefficient);
     lighting_.set_target(huge);
     lighting_.apply_all();
     for (float& value : huge) {
