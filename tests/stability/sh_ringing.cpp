@@ -201,14 +201,16 @@ std::vector<light::LightCubemap> suns_around(std::uint32_t n, int places) {
     return suns;
 }
 
-// As many wavelets as there are functions in each order, whose image errors are given.
+// As many wavelets as there are functions in each order, whose image errors are given. A sun
+// has 61 on a face at most: of each of five sizes of square it touches four, which have three
+// each, and the mean. Where there are fewer to take, what is missing rings as well, in squares.
 void add_wavelets(const lab::LabScene& scene,
                   std::span<const light::LightCubemap> suns,
                   std::span<const RelitImage> exact,
                   const std::array<double, kOrders.size()>& errors_of_orders,
                   std::vector<Finding>& findings) {
-    double error_of_most = 0;
     for (std::size_t k = 0; k < kOrders.size(); ++k) {
+        constexpr std::uint32_t kAllOfASun = 61;
         const std::uint32_t terms = kOrders[k] * kOrders[k];
         Relighter relighter(scene, fmt::format("nwa-{}-area", terms));
         Range error;
@@ -218,17 +220,15 @@ void add_wavelets(const lab::LabScene& scene,
             error.add(distance(relit.image, exact[i]) / norm(exact[i]));
             below_zero.add(energy_below_zero(relit.light) / light::total_energy(suns[i]).x);
         }
-        error_of_most = error.most();
-        findings.push_back({fmt::format("NWA-{}: energy below zero, of the sun's", terms),
-                            Sense::at_most, 1e-5, below_zero.most(),
-                            "steps that end at the sun; rounding where they cancel"});
-        findings.push_back(
-            {fmt::format("NWA-{}: image off, relative L2", terms), Sense::at_most,
-             errors_of_orders[k], error.most(),
-             fmt::format("measured beside it: SH-{}, as many terms", kOrders[k])});
+        const Sense sense = terms < kAllOfASun ? Sense::reported : Sense::at_most;
+        const std::string name = fmt::format("NWA-{}", terms);
+        findings.push_back({name + ": energy below zero, of the sun's, the most", sense, 1e-5,
+                            below_zero.most(), "all of the sun's wavelets: float"});
+        findings.push_back({name + ": image off, relative L2", sense, 1e-5, error.most(),
+                            fmt::format("the same; SH-{} has as many terms and is off by "
+                                        "{:.2g} at least",
+                                        kOrders[k], errors_of_orders[k])});
     }
-    findings.push_back({"the last, all of the sun's wavelets", Sense::at_most, 1e-5,
-                        error_of_most, "exact: summed in float"});
 }
 
 Outcome provoke(Workbench& workbench) {
