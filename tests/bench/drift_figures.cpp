@@ -6,9 +6,11 @@
 #include "tests/support/dark_tenth_error.h"
 #include "tests/support/tiny_transport.h"
 
-#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 
 namespace relume::bench {
 namespace {
@@ -19,7 +21,7 @@ constexpr std::size_t kPeriod = 100;
 constexpr std::size_t kLampOn = 10;
 constexpr std::size_t kTurns = 240;  // of the environment, 1.5 degrees each
 constexpr std::size_t kChecks = 10;
-constexpr std::uint32_t kTerms = 30;
+constexpr std::uint32_t kTerms = 15;
 
 std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
     light::LightRig rig;
@@ -71,14 +73,20 @@ void measure(Workbench& workbench, Results& results) {
     const std::size_t edits = workbench.quick() ? 10 * kPeriod : 1'000'000;
     nlohmann::json& measured = results.measured("drift");
     measured["edits"] = edits;
-    double worst = 0;
     // The default, and the method that never resets of its own accord.
-    for (const wire::Strategy strategy :
-         {wire::Strategy{}, wire::Strategy{.method = wire::Method::bi}}) {
-        const double drift = worst_drift(scene, strategy, edits);
-        measured[std::string(wire::name_from(strategy.method))] = drift;
-        worst = std::max(worst, drift);
+    constexpr std::array kStrategies{wire::Strategy{},
+                                     wire::Strategy{.method = wire::Method::bi}};
+    std::array<double, kStrategies.size()> drifts{};
+    // Each on a thread of its own: an edit of so small an image is over before others could
+    // help.
+    tbb::parallel_for(std::size_t{0}, kStrategies.size(), [&](std::size_t i) {
+        tbb::task_arena(1).execute(
+            [&] { drifts[i] = worst_drift(scene, kStrategies[i], edits); });
+    });
+    for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+        measured[std::string(wire::name_from(kStrategies[i].method))] = drifts[i];
     }
+    const double worst = *std::max_element(drifts.begin(), drifts.end());
     results.set("drift_dark_tenth", worst);
 }
 

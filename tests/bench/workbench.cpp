@@ -49,8 +49,8 @@ std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
 }
 
 std::shared_ptr<const engine::Scene> Workbench::drift_scene() {
-    return scenes_.baked("drift-64-8",
-                         {"--builtin", "table", "--size", "64x48", "--light-resolution", "8",
+    return scenes_.baked("drift-32-8",
+                         {"--builtin", "table", "--size", "32x32", "--light-resolution", "8",
                           "--bounces", "1", "--samples", "16"});
 }
 

@@ -35,7 +35,7 @@ class Workbench {
     [[nodiscard]] std::shared_ptr<const engine::Scene> scene_in_use() const { return scene_; }
     // Every cell of it is dense8, and it is far larger than the last-level cache.
     [[nodiscard]] std::shared_ptr<const engine::Scene> dense_scene();
-    // Small, so that a million edits take a minute.
+    // Small, so that a million edits take two minutes.
     [[nodiscard]] std::shared_ptr<const engine::Scene> drift_scene();
     // 1920×1080 in colour, with a bounce. Baking it takes long and goes on where it stopped.
     [[nodiscard]] std::shared_ptr<const engine::Scene> flagship_scene();

@@ -5,12 +5,15 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sched.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <system_error>
 #include <thread>
 
 namespace relume::lab {
@@ -27,6 +30,46 @@ std::size_t line_count(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+// Without the last column, microseconds: what does not depend on the clock.
+std::string reproducible_part(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string part;
+    for (std::string line; std::getline(lines, line);) {
+        part += line.substr(0, line.rfind(',')) + '\n';
+    }
+    return part;
+}
+
+// The calling thread, and what it starts, on the first processor alone.
+class OneProcessor {
+  public:
+    OneProcessor() {
+        check(::sched_getaffinity(0, sizeof before_, &before_));
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (std::size_t cpu = 0; CPU_COUNT(&one) == 0; ++cpu) {
+            if (CPU_ISSET(cpu, &before_)) {
+                CPU_SET(cpu, &one);
+            }
+        }
+        check(::sched_setaffinity(0, sizeof one, &one));
+    }
+    ~OneProcessor() { ::sched_setaffinity(0, sizeof before_, &before_); }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+    OneProcessor(OneProcessor&&) = delete;
+    OneProcessor& operator=(OneProcessor&&) = delete;
+
+  private:
+    static void check(int result) {
+        if (result != 0) {
+            throw std::system_error(errno, std::generic_category(), "affinity");
+        }
+    }
+
+    cpu_set_t before_{};
+};
+
 class ProgramTest : public testing::Test {
   protected:
     // Turns the light by two degrees an image.
@@ -40,11 +83,12 @@ class ProgramTest : public testing::Test {
         std::ofstream(file) << json;
         return file;
     }
-    [[nodiscard]] test::Program run_of(std::uint32_t images) const {
+    [[nodiscard]] test::Program run_of(
+        std::uint32_t images, const std::string& methods = "nwa-30,pbi-30-transport") const {
         return {RELUME_LAB,
                 {"run", "--transport", RELUME_TEST_SCENE, "--environment", "sky-afternoon",
-                 "--sequence", sequence_of(images).string(), "--methods",
-                 "nwa-30,pbi-30-transport", "--pictures", "1", "-o", output().string()},
+                 "--sequence", sequence_of(images).string(), "--methods", methods, "--pictures",
+                 "1", "-o", output().string()},
                 scratch_.path(),
                 "relume-lab"};
     }
@@ -77,6 +121,20 @@ TEST_F(ProgramTest, ARunLeavesAllThatItPromises) {
     for (const auto& entry : fs::directory_iterator(output())) {
         EXPECT_NE(entry.path().extension(), ".part") << "left behind";
     }
+}
+
+// On a machine of one processor this only says that a run can be repeated.
+TEST_F(ProgramTest, OneThreadFindsWhatManyDo) {
+    const auto found = [&] {
+        test::Program run =
+            run_of(8, "nwa-30,bi-30,pbi-30-transport,pbi-dealer-30,guarded-90kB-benefit");
+        EXPECT_EQ(run.wait(), 0) << run.errors();
+        return reproducible_part(content_of(output() / "records.csv"));
+    };
+    const std::string with_many = found();
+    const OneProcessor one;
+    EXPECT_EQ(found(), with_many);
+    EXPECT_EQ(line_count(with_many), 1 + 5 * 8);
 }
 
 TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHasAndSaysSo) {

@@ -83,14 +83,8 @@ class EndToEnd : public testing::Test {
         scratch_ = std::make_unique<ScratchDirectory>();
         fs::create_directory(folder() / "scenes");
         fs::create_directory(folder() / "environments");
-        Program bake(
-            RELUME_BAKE,
-            {"--builtin", "box", "--size", "72x40", "--light-resolution", "8", "--bounces", "1",
-             "--samples", "8", "-o", (folder() / "scenes" / "box.relume").string()},
-            folder(), "bake");
-        if (bake.wait() != 0) {
-            throw std::runtime_error("relume-bake: " + bake.errors());
-        }
+        bake("box", {});
+        bake("box-sh", {"--basis", "sh", "--order", "10"});
         write_environment(folder() / "sun.hdr");
     }
     static void TearDownTestSuite() { scratch_.reset(); }
@@ -120,6 +114,24 @@ class EndToEnd : public testing::Test {
     void TearDown() override {
         server_->send(SIGTERM);
         EXPECT_EQ(server_->wait(), 0) << server_->errors() << server_->output();
+    }
+
+    // The built-in box into the folder that is served.
+    static void bake(const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"--builtin",
+                                           "box",
+                                           "--size",
+                                           "72x40",
+                                           "--light-resolution",
+                                           "8",
+                                           "--bounces",
+                                           "1",
+                                           "--samples",
+                                           "8",
+                                           "-o",
+                                           (folder() / "scenes" / (name + ".relume")).string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        static_cast<void>(run_to_end(RELUME_BAKE, arguments, folder(), "bake"));
     }
 
     static const fs::path& folder() { return scratch_->path(); }
@@ -157,11 +169,14 @@ std::unique_ptr<ScratchDirectory> EndToEnd::scratch_;
 
 TEST_F(EndToEnd, ListingsShowWhatIsServed) {
     const json scenes = json::parse(run({"scenes", "--json"}).output);
-    ASSERT_EQ(scenes.size(), 1U);
+    ASSERT_EQ(scenes.size(), 2U);
     EXPECT_EQ(scenes[0].at("name"), "box");
-    EXPECT_EQ(scenes[0].at("width"), 72);
-    EXPECT_EQ(scenes[0].at("height"), 40);
-    EXPECT_EQ(scenes[0].at("face_resolution"), 8);
+    EXPECT_EQ(scenes[1].at("name"), "box-sh");
+    for (const json& scene : scenes) {
+        EXPECT_EQ(scene.at("width"), 72);
+        EXPECT_EQ(scene.at("height"), 40);
+        EXPECT_EQ(scene.at("face_resolution"), 8);
+    }
     const json info = json::parse(run({"info", "--json"}).output);
     EXPECT_EQ(info.at("limits").at("message_bytes"), 65536);
     const Answer table = run({"environments"});
@@ -303,6 +318,34 @@ TEST_F(EndToEnd, ManyRoomsAreServedAtOnce) {
     EXPECT_EQ(result.at("opened"), 9);
     EXPECT_GT(result.at("edits"), 0);
     EXPECT_EQ(result.at("edits_shown"), result.at("edits"));
+}
+
+TEST_F(EndToEnd, SphericalHarmonicsAreServedAsWaveletsAre) {
+    const Answer load =
+        run({"load", "--scene", "box-sh", "--sessions", "2", "--rate", "20", "--seconds", "1"});
+    ASSERT_EQ(load.exit_code, 0) << load.errors << load.output;
+    const json dragged = json::parse(load.output);
+    EXPECT_GT(dragged.at("images"), 0);
+    EXPECT_EQ(dragged.at("edits_shown"), dragged.at("edits"));
+
+    // By way of a sun, few terms an image, to the end.
+    const std::vector<std::string> smooth{"--environment", "sky-overcast"};
+    static_cast<void>(render({"--scene", "box-sh", "--room", "rings", "--environment",
+                              in_folder("sun.hdr"), "--until-error", "0.5"},
+                             "rings.exr"));
+    const json detour = render(
+        {"--room", "rings", "--until-error", "0", "--coefficients", "7", smooth[0], smooth[1]},
+        "harmonics.exr");
+    EXPECT_EQ(detour.at("exact"), true);
+    static_cast<void>(render({"--scene", "box-sh", smooth[0], smooth[1]}, "straight.exr"));
+    EXPECT_EQ(pixels_of(folder() / "harmonics.exr").values,
+              pixels_of(folder() / "straight.exr").values);
+
+    // What an overcast sky holds beyond order 10, and the noise of eight paths, are little.
+    static_cast<void>(render({"--scene", "box", smooth[0], smooth[1]}, "wavelets.exr"));
+    EXPECT_LE(relative_l2(pixels_of(folder() / "wavelets.exr"),
+                          pixels_of(folder() / "harmonics.exr")),
+              0.05);
 }
 
 TEST_F(EndToEnd, FailuresHaveTheirExitCodeAndTheirWords) {

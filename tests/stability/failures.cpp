@@ -10,7 +10,8 @@ std::span<const Failure> failures() {
     static const std::array all{ghosts(),         reset_flicker(),     popping(),
                                 rounding_drift(), repeated_rotation(), face_crossing(),
                                 small_lights(),   highlight_columns(), bad_texels(),
-                                edit_histories(), extreme_lighting(),  slow_rest()};
+                                edit_histories(), extreme_lighting(),  slow_rest(),
+                                sh_ringing()};
     return all;
 }
 

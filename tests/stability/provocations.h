@@ -17,5 +17,6 @@ namespace relume::stability {
 [[nodiscard]] Failure edit_histories();
 [[nodiscard]] Failure extreme_lighting();
 [[nodiscard]] Failure slow_rest();
+[[nodiscard]] Failure sh_ringing();
 
 }  // namespace relume::stability

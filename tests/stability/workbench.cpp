@@ -15,13 +15,26 @@ Workbench::Workbench(Options options) : options_(std::move(options)), cache_(opt
 std::shared_ptr<const engine::Scene> Workbench::baked(const std::string& builtin,
                                                       const SceneSize& size) {
     const std::string image = fmt::format("{}x{}", size.width, size.height);
-    const std::string name =
+    std::string name =
         fmt::format("{}-{}-{}-{}", builtin, image, size.face_resolution, size.bounces);
+    std::vector<std::string> words{"--builtin",
+                                   builtin,
+                                   "--size",
+                                   image,
+                                   "--light-resolution",
+                                   std::to_string(size.face_resolution),
+                                   "--bounces",
+                                   std::to_string(size.bounces),
+                                   "--samples",
+                                   "16"};
+    if (size.sh_order != 0) {
+        const std::string order = std::to_string(size.sh_order);
+        name += "-sh" + order;
+        words.insert(words.end(), {"--basis", "sh", "--order", order});
+    }
     auto& scene = scenes_[name];
     if (!scene) {
-        scene = cache_.baked(name, {"--builtin", builtin, "--size", image, "--light-resolution",
-                                    std::to_string(size.face_resolution), "--bounces",
-                                    std::to_string(size.bounces), "--samples", "16"});
+        scene = cache_.baked(name, words);
     }
     return scene;
 }

@@ -19,12 +19,13 @@ enum class Effort {
     thorough,
 };
 
-// Image size and lighting of a built-in scene.
+// Image size and lighting of a built-in scene, and in which basis.
 struct SceneSize {
     std::uint32_t width = 96;
     std::uint32_t height = 72;
     std::uint32_t face_resolution = 32;
     std::uint32_t bounces = 0;
+    std::uint32_t sh_order = 0;  // of spherical harmonics; 0: wavelets
 };
 
 // Not thread-safe.

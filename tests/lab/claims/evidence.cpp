@@ -8,6 +8,26 @@
 #include <utility>
 
 namespace relume::lab {
+namespace {
+
+// No method takes part yet.
+Experiment experiment_under(const LabScene& scene,
+                            const std::string& light,
+                            const std::string& sequence) {
+    Experiment experiment;
+    experiment.scene = scene;
+    experiment.sequence = load_sequence(sequence);
+    experiment.environments = {
+        .environment = load_environment(light, scene.haar->face_resolution()),
+        .blend = nullptr};
+    return experiment;
+}
+
+std::string name_of(const LabScene& scene, const std::string& light) {
+    return scene.haar->transport().directory().stem().string() + ", " + light;
+}
+
+}  // namespace
 
 const Summary& LightRun::of(const std::string& method) const {
     const auto found =
@@ -53,16 +73,11 @@ LightRun Evidence::run(const LabScene& scene,
                        const std::string& light,
                        const std::string& sequence,
                        const std::vector<std::string>& methods) {
-    Experiment experiment;
-    experiment.scene = scene;
-    experiment.sequence = load_sequence(sequence);
-    experiment.environments = {
-        .environment = load_environment(light, scene.haar->face_resolution()),
-        .blend = nullptr};
+    Experiment experiment = experiment_under(scene, light, sequence);
     for (const std::string& method : methods) {
         experiment.methods.push_back(method_from_text(method));
     }
-    const std::string what = scene.haar->transport().directory().stem().string() + ", " + light;
+    const std::string what = name_of(scene, light);
     experiment.go_on = [&](std::uint32_t done) {
         return options_.go_on(what, done, experiment.sequence.images);
     };
@@ -73,6 +88,24 @@ LightRun Evidence::run(const LabScene& scene,
     }
     run.summaries = summaries(run.findings.records, experiment.sequence.rests_from());
     return run;
+}
+
+std::vector<TermsCurve> Evidence::terms(const LabScene& scene,
+                                        const std::string& light,
+                                        const std::vector<std::string>& forms) {
+    const Experiment experiment = experiment_under(scene, light, "slow-fast-slow");
+    const std::string what = name_of(scene, light) + ", terms";
+    const auto all = static_cast<std::uint32_t>(forms.size());
+    std::vector<TermsCurve> curves;
+    for (const std::string& form : forms) {
+        const auto done = static_cast<std::uint32_t>(curves.size());
+        if (!options_.go_on(what, done, all)) {
+            throw EvidenceInterrupted();
+        }
+        curves.push_back(sweep_terms(experiment, {form}).front());
+    }
+    (void)options_.go_on(what, all, all);
+    return curves;
 }
 
 std::string by_light(const std::vector<LightRun>& runs,

@@ -3,6 +3,7 @@
 
 #include "tests/lab/measures/experiment.h"
 #include "tests/lab/measures/summary.h"
+#include "tests/lab/measures/terms_sweep.h"
 #include "tests/lab/scenes/lab_scenes.h"
 
 #include <functional>
@@ -23,7 +24,7 @@ struct EvidenceOptions {
     LabScene demo;  // what most claims are tried on
     std::vector<std::string> lights{"studio", "night", "courtyard"};  // as load_environment
     std::string cache = {};  // of the scenes of claims about materials
-    // Told what is running and how many images of it are done; false: stop.
+    // Told what is running and how many of its images or curves are done; false: stop.
     std::function<bool(const std::string& what, std::uint32_t done, std::uint32_t of)> go_on;
 };
 
@@ -57,6 +58,11 @@ class Evidence {
                                const std::string& light,
                                const std::string& sequence,
                                const std::vector<std::string>& methods);
+    // The first light of slow-fast-slow with ever more terms, a curve for each of `forms`
+    // (sweep_terms); not kept.
+    [[nodiscard]] std::vector<TermsCurve> terms(const LabScene& scene,
+                                                const std::string& light,
+                                                const std::vector<std::string>& forms);
     [[nodiscard]] const std::vector<std::string>& lights() const { return options_.lights; }
 
   private:

@@ -1,7 +1,6 @@
 // Wavelets against spherical harmonics.
 #include "server/light/light_rig.h"
 #include "tests/lab/claims/claim.h"
-#include "tests/lab/measures/terms_sweep.h"
 #include "tests/lab/sequences/environment_source.h"
 
 #include <fmt/format.h>
@@ -18,14 +17,8 @@ struct TermsOfLight {
     std::vector<Record> wavelets;  // by area, ascending
 };
 
-TermsOfLight sweep(const LabScene& scene, const std::string& light) {
-    Experiment experiment;
-    experiment.scene = scene;
-    experiment.sequence = load_sequence("slow-fast-slow");
-    experiment.environments = {
-        .environment = load_environment(light, scene.haar->face_resolution()),
-        .blend = nullptr};
-    std::vector<TermsCurve> curves = sweep_terms(experiment, {"sh-{}", "nwa-{}-area"});
+TermsOfLight sweep(Evidence& evidence, const LabScene& scene, const std::string& light) {
+    std::vector<TermsCurve> curves = evidence.terms(scene, light, {"sh-{}", "nwa-{}-area"});
     return {.light = light,
             .harmonics = std::move(curves[0].records),
             .wavelets = std::move(curves[1].records)};
@@ -63,10 +56,10 @@ std::string figures(const std::vector<TermsOfLight>& lights,
     return text;
 }
 
-Claim all_frequency_claim(const LabScene& scene) {
+Claim all_frequency_claim(Evidence& evidence, const LabScene& scene) {
     std::vector<TermsOfLight> lights;
     for (const char* light : {"studio", "night", "bare-sun"}) {
-        lights.push_back(sweep(scene, light));
+        lights.push_back(sweep(evidence, scene, light));
     }
     const bool holds = std::all_of(lights.begin(), lights.end(), [](const TermsOfLight& terms) {
         return terms_ratio(terms, of_order(terms, 18)) >= 10;
@@ -84,8 +77,8 @@ Claim all_frequency_claim(const LabScene& scene) {
                        "ratio grows with the order: wavelets converge and SH hardly do."};
 }
 
-Claim low_frequency_claim(const LabScene& scene) {
-    const std::vector<TermsOfLight> lights{sweep(scene, "sky-overcast")};
+Claim low_frequency_claim(Evidence& evidence, const LabScene& scene) {
+    const std::vector<TermsOfLight> lights{sweep(evidence, scene, "sky-overcast")};
     const double ratio = terms_ratio(lights[0], of_order(lights[0], 3));
     const bool holds = ratio >= 0.5 && ratio <= 2;
     return {
@@ -170,7 +163,8 @@ Claim ringing_claim(const LabScene& scene) {
 
 std::vector<Claim> sh_claims(Evidence& evidence) {
     const LabScene scene = evidence.scene_in_both_bases("table");
-    return {all_frequency_claim(scene), low_frequency_claim(scene), ringing_claim(scene)};
+    return {all_frequency_claim(evidence, scene), low_frequency_claim(evidence, scene),
+            ringing_claim(scene)};
 }
 
 }  // namespace relume::lab

@@ -66,7 +66,7 @@ int run(const SeedsOptions& options) {
              .cache = options.cache,
              .go_on = [&](const std::string& what, std::uint32_t done, std::uint32_t of) {
                  if (done == 0) {
-                     progress = std::make_unique<Progress>("image", of);
+                     progress = std::make_unique<Progress>("step", of);
                  }
                  progress->update(done, what);
                  return !is_interrupted();
