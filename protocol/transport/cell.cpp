@@ -59,16 +59,12 @@ void append_strips8(const QuantisedCell& values, std::vector<std::uint8_t>& byte
     }
 }
 
-// q = low + 256·high with low in 8 bits.
-void append_split(CellTag tag, const QuantisedCell& values, std::vector<std::uint8_t>& bytes) {
-    QuantisedCell low;
-    QuantisedCell high;
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        low[slot] = static_cast<std::int8_t>(values[slot] & 0xFF);
-        high[slot] = (values[slot] - low[slot]) / kHighPart;
-    }
-    append_strips8(high, bytes);
-    append_cell_as(low_tag(tag), low, bytes);
+// Part i of all values.
+QuantisedCell part_of(const QuantisedCell& values, std::size_t i) {
+    QuantisedCell part;
+    std::transform(values.begin(), values.end(), part.begin(),
+                   [i](std::int32_t value) { return parts_of(value)[i]; });
+    return part;
 }
 
 // Values a cell of strips holds.
@@ -107,12 +103,19 @@ const std::uint8_t* decode_strips8(const std::uint8_t* cell, DecodedCell& values
 }
 
 const std::uint8_t* decode_split(CellTag tag, const std::uint8_t* cell, DecodedCell& values) {
-    DecodedCell high;
-    const std::uint8_t* end = decode_cell(low_tag(tag), decode_strips8(cell, high), values);
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        values[slot] += kHighPart * high[slot];
+    DecodedCell upper{};
+    for (std::size_t i = upper_parts(tag); i > 0; --i) {
+        DecodedCell part;
+        cell = decode_strips8(cell, part);
+        for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+            upper[slot] = kPartBase * (upper[slot] + part[slot]);
+        }
     }
-    return end;
+    cell = decode_cell(low_tag(tag), cell, values);
+    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+        values[slot] += upper[slot];
+    }
+    return cell;
 }
 
 // `count` strips, ascending, none empty.
@@ -152,6 +155,13 @@ CellTag append_cell(const QuantisedCell& values, std::vector<std::uint8_t>& byte
 void append_cell_as(CellTag tag,
                     const QuantisedCell& values,
                     std::vector<std::uint8_t>& bytes) {
+    for (std::size_t i = upper_parts(tag); i > 0; --i) {
+        append_strips8(part_of(values, i), bytes);
+    }
+    if (upper_parts(tag) > 0) {
+        append_cell_as(low_tag(tag), part_of(values, 0), bytes);
+        return;
+    }
     switch (tag) {
         case CellTag::empty:
             return;
@@ -167,9 +177,7 @@ void append_cell_as(CellTag tag,
         case CellTag::dense32f:
             append_all<float>(values, bytes);
             return;
-        case CellTag::split_dense8:
-        case CellTag::split_strips8:
-            append_split(tag, values, bytes);
+        default:
             return;
     }
 }
@@ -180,11 +188,14 @@ std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t>
             fmt::format("unknown cell tag {}, expected 0 to {}", tag, kCellTagCount - 1));
     }
     const auto cell_tag = static_cast<CellTag>(tag);
-    if (is_split(cell_tag)) {
-        const std::size_t high =
-            validated_cell_bytes(static_cast<std::uint8_t>(CellTag::strips8), bytes);
-        return high + validated_cell_bytes(static_cast<std::uint8_t>(low_tag(cell_tag)),
-                                           bytes.subspan(high));
+    if (upper_parts(cell_tag) > 0) {
+        std::size_t size = 0;
+        for (std::size_t i = upper_parts(cell_tag); i > 0; --i) {
+            size += validated_cell_bytes(static_cast<std::uint8_t>(CellTag::strips8),
+                                         bytes.subspan(size));
+        }
+        return size + validated_cell_bytes(static_cast<std::uint8_t>(low_tag(cell_tag)),
+                                           bytes.subspan(size));
     }
     const auto require = [&](std::size_t needed) {
         if (bytes.size() < needed) {
@@ -209,22 +220,22 @@ std::size_t validated_cell_bytes(std::uint8_t tag, std::span<const std::uint8_t>
 }
 
 std::size_t cell_bytes(CellTag tag, const std::uint8_t* cell) {
-    switch (tag) {
-        case CellTag::empty:
-            return 0;
+    std::size_t upper = 0;
+    for (std::size_t i = upper_parts(tag); i > 0; --i) {
+        upper += strips8_bytes(cell + upper);
+    }
+    switch (low_tag(tag)) {
         case CellTag::dense8:
-            return kBlockSize;
+            return upper + kBlockSize;
         case CellTag::strips8:
-            return strips8_bytes(cell);
+            return upper + strips8_bytes(cell + upper);
         case CellTag::dense16:
             return kBlockSize * sizeof(std::int16_t);
         case CellTag::dense32f:
             return kBlockSize * sizeof(float);
-        case CellTag::split_dense8:
-        case CellTag::split_strips8:
-            return strips8_bytes(cell) + cell_bytes(low_tag(tag), cell + strips8_bytes(cell));
+        default:
+            return 0;
     }
-    return 0;
 }
 
 const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCell& values) {
@@ -240,11 +251,9 @@ const std::uint8_t* decode_cell(CellTag tag, const std::uint8_t* cell, DecodedCe
             return decode_dense<std::int16_t>(cell, values);
         case CellTag::dense32f:
             return decode_dense<float>(cell, values);
-        case CellTag::split_dense8:
-        case CellTag::split_strips8:
+        default:
             return decode_split(tag, cell, values);
     }
-    return cell;
 }
 
 std::uint64_t SegmentView::occupied_blocks(std::uint32_t block_count) const {

@@ -27,71 +27,85 @@ double strips_ns(const CellShape::Occupancy& occupancy) {
     return kStripsNs + kStripNs * static_cast<double>(occupancy.strips);
 }
 
-// The low part of a split cell as a cell of its own.
-CellShape low_part(const CellShape& shape) {
-    return {.all = shape.low, .low = shape.low, .high = {}};
-}
-
 void add_strip(unsigned nonzeros, CellShape::Occupancy& occupancy) {
     occupancy.nonzeros += nonzeros;
     occupancy.strips += nonzeros > 0 ? 1U : 0U;
 }
 
+// The value whose lowest `count` parts are all this one.
+constexpr std::int32_t value_of(std::int8_t part, std::size_t count) {
+    std::int32_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        value = value * kPartBase + part;
+    }
+    return value;
+}
+
 }  // namespace
+
+CellParts parts_of(std::int32_t value) {
+    CellParts parts{};
+    for (std::int32_t& part : parts) {
+        part = static_cast<std::int8_t>(value & 0xFF);
+        value = (value - part) / kPartBase;
+    }
+    return parts;
+}
 
 CellShape CellShape::of(const QuantisedCell& values) {
     CellShape shape;
     for (std::size_t first = 0; first < kBlockSize; first += kStripSlots) {
         unsigned all = 0;
-        unsigned low = 0;
-        unsigned high = 0;
+        std::array<unsigned, kMaxParts> nonzeros{};
         for (std::size_t slot = first; slot < first + kStripSlots; ++slot) {
             const std::int32_t value = values[slot];
-            const std::int32_t low_value = static_cast<std::int8_t>(value & 0xFF);
+            const CellParts parts = parts_of(value);
             all += value != 0 ? 1U : 0U;
-            low += low_value != 0 ? 1U : 0U;
-            high += value != low_value ? 1U : 0U;
+            for (std::size_t i = 0; i < kMaxParts; ++i) {
+                nonzeros[i] += parts[i] != 0 ? 1U : 0U;
+            }
             shape.least = std::min(shape.least, value);
             shape.largest = std::max(shape.largest, value);
         }
         add_strip(all, shape.all);
-        add_strip(low, shape.low);
-        add_strip(high, shape.high);
+        for (std::size_t i = 0; i < kMaxParts; ++i) {
+            add_strip(nonzeros[i], shape.parts[i]);
+        }
     }
     return shape;
 }
 
 bool CellShape::fits(CellTag tag) const {
-    if (is_split(tag)) {
-        // The largest low part is 127, the largest high part 127·256.
-        constexpr std::int32_t kLargestSplit = 127 + kHighPart * 127;
-        return in_range<std::int16_t>(*this) && largest <= kLargestSplit && high.nonzeros > 0 &&
-               low.nonzeros > 0;
+    if (tag == CellTag::empty || all.nonzeros == 0) {
+        return tag == CellTag::empty && all.nonzeros == 0;
     }
-    switch (tag) {
-        case CellTag::empty:
-            return all.nonzeros == 0;
-        case CellTag::dense8:
-        case CellTag::strips8:
-            return all.nonzeros > 0 && in_range<std::int8_t>(*this);
+    switch (low_tag(tag)) {
         case CellTag::dense16:
-            return all.nonzeros > 0 && in_range<std::int16_t>(*this);
+            return in_range<std::int16_t>(*this);
+        case CellTag::dense32f:
+            return true;
         default:
-            return all.nonzeros > 0;  // floats
+            break;
     }
+    const std::size_t count = 1 + upper_parts(tag);
+    using Part = std::numeric_limits<std::int8_t>;
+    return least >= value_of(Part::min(), count) && largest <= value_of(Part::max(), count) &&
+           std::all_of(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
+                       [](const Occupancy& part) { return part.nonzeros > 0; });
 }
 
 std::size_t CellShape::bytes(CellTag tag) const {
-    if (is_split(tag)) {
-        return strips_bytes(high) + low_part(*this).bytes(low_tag(tag));
+    std::size_t upper = 0;
+    for (std::size_t i = upper_parts(tag); i > 0; --i) {
+        upper += strips_bytes(parts[i]);
     }
-    switch (tag) {
+    switch (low_tag(tag)) {
         case CellTag::empty:
             return 0;
         case CellTag::dense8:
-            return kBlockSize;
+            return upper + kBlockSize;
         case CellTag::strips8:
-            return strips_bytes(all);
+            return upper + strips_bytes(parts[0]);
         case CellTag::dense16:
             return kBlockSize * sizeof(std::int16_t);
         default:
@@ -100,16 +114,17 @@ std::size_t CellShape::bytes(CellTag tag) const {
 }
 
 double CellShape::nanoseconds(CellTag tag) const {
-    if (is_split(tag)) {
-        return strips_ns(high) + low_part(*this).nanoseconds(low_tag(tag));
+    double upper = 0;
+    for (std::size_t i = upper_parts(tag); i > 0; --i) {
+        upper += strips_ns(parts[i]);
     }
-    switch (tag) {
+    switch (low_tag(tag)) {
         case CellTag::empty:
             return 0;
         case CellTag::dense8:
-            return kDense8Ns;
+            return upper + kDense8Ns;
         case CellTag::strips8:
-            return strips_ns(all);
+            return upper + strips_ns(parts[0]);
         case CellTag::dense16:
             return kDense16Ns;
         default:

@@ -5,10 +5,15 @@
 #include "protocol/transport/cell.h"
 #include "protocol/transport/format.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace relume::transport {
+
+// A value's parts of 8 bits, the lowest first: value = Σ_i 256^i·part_i where three suffice.
+using CellParts = std::array<std::int32_t, kMaxParts>;
+[[nodiscard]] CellParts parts_of(std::int32_t value);
 
 // What the cost of a cell depends on.
 struct CellShape {
@@ -18,9 +23,8 @@ struct CellShape {
         std::size_t strips = 0;
     };
     Occupancy all;
-    // Of the parts q = low + 256·high, low in 8 bits.
-    Occupancy low;
-    Occupancy high;
+    // Of the parts q = Σ_i 256^i·part_i, the lowest first.
+    std::array<Occupancy, kMaxParts> parts;
     std::int32_t least = 0;
     std::int32_t largest = 0;
 

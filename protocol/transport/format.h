@@ -26,8 +26,9 @@ inline constexpr std::size_t kShardAlignment = 64;
 inline constexpr std::size_t kShardTailBytes = 64;
 
 // How a cell (256 values of one column) is stored: all of it, or those of its strips of eight
-// slots in which anything is. In the last two, values beyond 8 bits are split,
-// q = low + 256·high: first the few that have a high part, then all low parts.
+// slots in which anything is. In the last four, values beyond 8 bits are split into parts of
+// 8 bits, q = Σ_i 256^i·part_i with up to two upper ones: first the strips of upper parts, the
+// highest first, then the lowest parts of all values.
 enum class CellTag : std::uint8_t {
     empty = 0,
     dense8 = 1,
@@ -36,20 +37,34 @@ enum class CellTag : std::uint8_t {
     dense32f = 4,
     split_dense8 = 5,
     split_strips8 = 6,
+    split3_dense8 = 7,
+    split3_strips8 = 8,
 };
-inline constexpr std::size_t kCellTagCount = 7;
+inline constexpr std::size_t kCellTagCount = 9;
 inline constexpr std::array<const char*, kCellTagCount> kCellTagNames{
-    "empty", "dense8", "strips8", "dense16", "dense32f", "split_dense8", "split_strips8"};
-inline constexpr std::int32_t kHighPart = 256;
+    "empty",        "dense8",        "strips8",       "dense16",       "dense32f",
+    "split_dense8", "split_strips8", "split3_dense8", "split3_strips8"};
+inline constexpr std::size_t kMaxParts = 3;
+inline constexpr std::int32_t kPartBase = 256;
 
-[[nodiscard]] constexpr bool is_split(CellTag tag) {
-    return tag >= CellTag::split_dense8;
+// How many upper parts a cell is stored with, and how its lowest parts are stored.
+[[nodiscard]] constexpr std::size_t upper_parts(CellTag tag) {
+    if (tag < CellTag::split_dense8) {
+        return 0;
+    }
+    return tag < CellTag::split3_dense8 ? 1 : 2;
 }
-// How the low parts of a split cell are stored.
 [[nodiscard]] constexpr CellTag low_tag(CellTag tag) {
-    return static_cast<CellTag>(static_cast<std::uint8_t>(tag) -
-                                static_cast<std::uint8_t>(CellTag::split_dense8) +
-                                static_cast<std::uint8_t>(CellTag::dense8));
+    switch (tag) {
+        case CellTag::split_dense8:
+        case CellTag::split3_dense8:
+            return CellTag::dense8;
+        case CellTag::split_strips8:
+        case CellTag::split3_strips8:
+            return CellTag::strips8;
+        default:
+            return tag;
+    }
 }
 inline constexpr std::size_t kStripSlots = 8;
 inline constexpr std::size_t kStripsPerBlock = kBlockSize / kStripSlots;

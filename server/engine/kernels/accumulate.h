@@ -49,10 +49,10 @@ inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
 // both targets. The order is part of the contract, so that every instruction set gives the same
 // bits:
 // - a block's dense cells are added up from zero, group by group; of each group its 8-bit
-//   cells, then its 16-bit cells, then its float cells, each in the order of the segments; the
-//   result is added to the targets;
-// - then the same goes for all its cells of strips in the order of the segments, a split cell's
-//   high part, with 256 times the weight, before its low part;
+//   cells, then its 16-bit cells, then its float cells, each in the order of the segments;
+// - by themselves all its cells of strips are added up from zero in the order of the segments,
+//   the higher parts of a split cell, with 256 or 65536 times the weight, before the lower;
+// - strips' sums are added to dense cells' sums, and these to the targets;
 // - every product is added without rounding in between (fused multiply-add).
 using AccumulateSegments = void(std::span<const WeightedSegment> segments,
                                 std::uint32_t block_count,

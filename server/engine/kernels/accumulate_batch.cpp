@@ -171,6 +171,35 @@ std::uint32_t rows_of_bitmap(const Bitmap& bitmap) {
     return rows;
 }
 
+// The cells of strips of one block. Alone a session adds them on the way, but sixteen sessions'
+// sums of a whole shard would not stay in any near cache.
+class StripCells {
+  public:
+    struct Cell {
+        const std::uint8_t* cell;
+        float scale;
+        std::uint16_t segment;  // in its wave
+    };
+
+    // Returns the end of the cell.
+    HWY_INLINE const std::uint8_t* add(std::size_t segment,
+                                       const std::uint8_t* cell,
+                                       float scale) {
+        cells_.push_back({cell, scale, static_cast<std::uint16_t>(segment)});
+        const std::size_t count = cell[0];
+        const std::uint8_t* packed = cell + 1 + 2 * count;
+        for (std::size_t i = 0; i < count; ++i) {
+            packed += std::popcount(cell[2 + 2 * i]);
+        }
+        return packed;
+    }
+    [[nodiscard]] std::span<const Cell> all() const { return cells_; }
+    void clear() { cells_.clear(); }
+
+  private:
+    std::vector<Cell> cells_;
+};
+
 constexpr std::uint32_t kAllRows = (1U << (kBlockSize / LaneSums::kRowSlots)) - 1;
 
 // What a thread keeps from call to call; too large for its stack.
@@ -188,14 +217,15 @@ class Workspace {
             lists_.fill(
                 segments.size(), [&](std::size_t s) { return segments[s]; }, block_count,
                 [&](std::size_t s, std::uint32_t block, const std::uint8_t* cell, float scale)
-                    HWY_ATTR { return add_strips(block, cell, wave_.lanes(s), scale); });
+                    HWY_ATTR { return strip_cells_[block].add(s, cell, scale); });
             for (std::uint32_t block = 0; block < block_count; ++block) {
                 take_cells(block);
+                take_strips(block);
             }
         }
         for (std::uint32_t block = 0; block < block_count; ++block) {
+            values_[block].absorb(strips_[block], stride_);
             values_[block].take(members, block, stride_);
-            strips_[block].take(members, block, stride_);
         }
     }
 
@@ -224,11 +254,21 @@ class Workspace {
         add_wide(block);
     }
 
-    // Returns the end of the cell.
-    HWY_INLINE const std::uint8_t* add_strips(std::uint32_t block,
-                                              const std::uint8_t* cell,
-                                              const Wave::Lanes& lanes,
-                                              float scale) {
+    void take_strips(std::uint32_t block) {
+        const std::span<const StripCells::Cell> cells = strip_cells_[block].all();
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            // In the order of blocks, memory is gone through in leaps.
+            constexpr std::size_t kAhead = 8;
+            __builtin_prefetch(cells[std::min(i + kAhead, cells.size() - 1)].cell);
+            add_strips(block, cells[i].cell, wave_.lanes(cells[i].segment), cells[i].scale);
+        }
+        strip_cells_[block].clear();
+    }
+
+    void add_strips(std::uint32_t block,
+                    const std::uint8_t* cell,
+                    const Wave::Lanes& lanes,
+                    float scale) {
         const std::size_t count = cell[0];
         const std::uint8_t* packed = cell + 1 + 2 * count;
         LaneSums& sums = strips_[block];
@@ -246,7 +286,6 @@ class Workspace {
                     }
                 }
             });
-        return packed;
     }
 
     // Many values are zero, and to pass one over is cheaper than to add it to so many lanes.
@@ -292,6 +331,7 @@ class Workspace {
     Wave wave_;
     Lists lists_;
     std::vector<ListedCell> wide_;
+    std::array<StripCells, transport::kMaxBlocksPerShard> strip_cells_;
     std::array<LaneSums, transport::kMaxBlocksPerShard> values_;
     std::array<LaneSums, transport::kMaxBlocksPerShard> strips_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace relume::engine {
@@ -16,7 +17,7 @@ enum class CellKind : std::uint8_t { empty, bits8, bits16, floats, strips };
 
 // Of the low part, if the cell is split.
 CellKind kind_of(CellTag tag) {
-    switch (transport::is_split(tag) ? transport::low_tag(tag) : tag) {
+    switch (transport::low_tag(tag)) {
         case CellTag::empty:
             return CellKind::empty;
         case CellTag::dense8:
@@ -59,15 +60,16 @@ bool add_cells(std::span<const WeightedSegment> segments,
         CellTag tag = segments[s].segment.tag(block);
         const std::uint8_t* cell = cells[s];
         DecodedCell values;
-        if (transport::is_split(tag)) {
-            const std::uint8_t* low = transport::decode_cell(CellTag::strips8, cell, values);
+        auto scale = static_cast<float>(std::pow(transport::kPartBase, upper_parts(tag)));
+        for (std::size_t part = upper_parts(tag); part > 0; --part) {
+            cell = transport::decode_cell(CellTag::strips8, cell, values);
             if (kind == CellKind::strips) {
-                add_values(values, segments[s].weights, transport::kHighPart, sums);
+                add_values(values, segments[s].weights, scale, sums);
                 any = true;
             }
-            tag = transport::low_tag(tag);
-            cell = low;
+            scale /= transport::kPartBase;
         }
+        tag = transport::low_tag(tag);
         if (kind_of(tag) == kind && kind != CellKind::empty) {
             transport::decode_cell(tag, cell, values);
             add_values(values, segments[s].weights, 1, sums);
@@ -107,12 +109,14 @@ void accumulate_segments_scalar(std::span<const WeightedSegment> segments,
             }
             first += group.size();
         }
-        if (any) {
-            add_to_targets(sums, block, targets);
-        }
         BlockSums strips{};
         if (add_cells(segments, cells, block, CellKind::strips, strips)) {
-            add_to_targets(strips, block, targets);
+            std::transform(sums.begin(), sums.end(), strips.begin(), sums.begin(),
+                           std::plus<>());
+            any = true;
+        }
+        if (any) {
+            add_to_targets(sums, block, targets);
         }
         for (std::size_t s = 0; s < segments.size(); ++s) {
             cells[s] += transport::cell_bytes(segments[s].segment.tag(block), cells[s]);

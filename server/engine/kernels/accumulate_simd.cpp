@@ -56,16 +56,22 @@ class Workspace {
                 take_cells(group, block);
                 if (only_one_group) {
                     const std::size_t first = std::size_t{block} * kSumsPerBlock;
-                    values_.add_to(targets.sums + first,
+                    values_.add_to(strips_.of_block(block), targets.sums + first,
                                    targets.total != nullptr ? targets.total + first : nullptr);
+                    strips_.clear(block);
                 } else {
                     groups_.add(block, values_);
                 }
             }
             segments = segments.subspan(group.size());
         }
-        groups_.add_to(targets);
-        strips_.take(block_count, targets);
+        groups_.add_to(targets, [&](std::uint32_t block) { return strips_.of_block(block); });
+        for (std::uint32_t block = 0; block < block_count; ++block) {
+            if (((groups_.used() >> block) & 1U) == 0) {
+                strips_.add_to(block, targets);
+            }
+            strips_.clear(block);
+        }
     }
 
   private:

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include <array>
+#include <bit>
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
@@ -81,6 +82,23 @@ class LaneSums {
     }
     void touch_row_of(std::size_t slot) { touched_ |= std::uint32_t{1} << (slot / kRowSlots); }
     void touch_rows(std::uint32_t rows) { touched_ |= rows; }
+
+    // Adds another's sums, which are zero then.
+    void absorb(LaneSums& other, std::size_t stride) {
+        const LaneTag df;
+        for (std::uint32_t rows = other.touched_; rows != 0; rows &= rows - 1) {
+            const std::size_t row = static_cast<std::size_t>(std::countr_zero(rows));
+            float* HWY_RESTRICT to = slot(row * kRowSlots, stride);
+            float* HWY_RESTRICT from = other.slot(row * kRowSlots, stride);
+            for (std::size_t i = 0; i < kRowSlots * stride; i += kVectorLanes) {
+                namespace hn = hwy::HWY_NAMESPACE;
+                hn::Store(hn::Add(hn::Load(df, to + i), hn::Load(df, from + i)), df, to + i);
+                hn::Store(hn::Zero(df), df, from + i);
+            }
+        }
+        touched_ |= other.touched_;
+        other.touched_ = 0;
+    }
 
     // Adds the sums of every member to its targets in this block, and is zero again.
     void take(std::span<const BatchMember> members, std::size_t block, std::size_t stride) {

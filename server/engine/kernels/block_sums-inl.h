@@ -109,6 +109,14 @@ struct Registers {
         }
     }
 
+    HWY_INLINE void add(D df, const float* HWY_RESTRICT sums) {
+        for (std::size_t v = 0; v < kVectors; ++v, sums += hn::Lanes(df)) {
+            red[v] = hn::Add(red[v], hn::LoadU(df, sums));
+            green[v] = hn::Add(green[v], hn::LoadU(df, sums + kBlockSize));
+            blue[v] = hn::Add(blue[v], hn::LoadU(df, sums + 2 * kBlockSize));
+        }
+    }
+
     HWY_INLINE void add_to(D df, float* HWY_RESTRICT sums) const {
         for (std::size_t v = 0; v < kVectors; ++v, sums += hn::Lanes(df)) {
             add_one(df, red[v], sums);
@@ -127,12 +135,18 @@ class BlockValues {
 
     void clear() { bits8.count = bits16.count = floats.count = 0; }
 
-    // Sums pass through registers once for all cells.
-    void add_to(float* HWY_RESTRICT sums, float* HWY_RESTRICT total) const {
+    // Sums pass through registers once for all cells and what the block's strips add up to,
+    // null if there are none.
+    void add_to(const float* HWY_RESTRICT strips,
+                float* HWY_RESTRICT sums,
+                float* HWY_RESTRICT total) const {
         const hn::CappedTag<float, 16> df;
         for_each_part([&](auto& registers, std::size_t slot) HWY_ATTR {
             registers.clear(df);
             add_part(registers, slot);
+            if (strips != nullptr) {
+                registers.add(df, strips + slot);
+            }
             registers.add_to(df, sums + slot);
             if (total != nullptr) {
                 registers.add_to(df, total + slot);
@@ -184,12 +198,18 @@ class GroupSums {
         values.go_on(sums_[block].data());
     }
 
-    void add_to(const SumTargets& targets) const {
+    // With what their strips add up to, strips_of(block), null if there are none.
+    template <typename StripsOf>
+    void add_to(const SumTargets& targets, const StripsOf& strips_of) {
         const hn::CappedTag<float, 16> df;
         for (std::uint64_t left = used_; left != 0; left &= left - 1) {
-            const auto block = static_cast<std::size_t>(std::countr_zero(left));
+            const auto block = static_cast<std::uint32_t>(std::countr_zero(left));
+            const float* strips = strips_of(block);
             for (std::size_t i = 0; i < kSumsPerBlock; i += hn::Lanes(df)) {
-                const auto sum = hn::LoadU(df, &sums_[block][i]);
+                auto sum = hn::LoadU(df, &sums_[block][i]);
+                if (strips != nullptr) {
+                    sum = hn::Add(sum, hn::LoadU(df, strips + i));
+                }
                 add_one(df, sum, targets.sums + block * kSumsPerBlock + i);
                 if (targets.total != nullptr) {
                     add_one(df, sum, targets.total + block * kSumsPerBlock + i);
@@ -197,6 +217,8 @@ class GroupSums {
             }
         }
     }
+    // Bit b: block b has sums.
+    [[nodiscard]] std::uint64_t used() const { return used_; }
 
   private:
     alignas(

@@ -52,6 +52,7 @@ class CellLists {
     }
 
   private:
+    static constexpr std::array<float, transport::kMaxParts> kPartScales{1, 256, 65536};
     static constexpr std::uint32_t kTagsPerWord = 16;
     static constexpr std::size_t kCacheLine = 64;
     // The next segment is as a rule the next in memory.
@@ -73,11 +74,10 @@ class CellLists {
                 const auto bit = static_cast<unsigned>(std::countr_zero(present));
                 auto tag = static_cast<transport::CellTag>((tags >> bit) & 0xFU);
                 const std::uint32_t block = first + bit / 4;
-                if (transport::is_split(tag)) {
-                    cell = on_strips(number, block, cell,
-                                     static_cast<float>(transport::kHighPart));
-                    tag = transport::low_tag(tag);
+                for (std::size_t part = transport::upper_parts(tag); part > 0; --part) {
+                    cell = on_strips(number, block, cell, kPartScales[part]);
                 }
+                tag = transport::low_tag(tag);
                 if (tag == transport::CellTag::strips8) {
                     cell = on_strips(number, block, cell, 1.0F);
                 } else {

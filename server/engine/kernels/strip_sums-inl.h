@@ -64,19 +64,31 @@ class StripSums {
         return packed;
     }
 
-    // Adds the sums of the first `block_count` blocks to the targets, and is zero again.
-    void take(std::uint32_t block_count, const SumTargets& targets) {
-        for (std::size_t block = 0; block < block_count; ++block) {
-            for (std::uint32_t strips = touched_[block]; strips != 0; strips &= strips - 1) {
-                const std::size_t slot =
-                    kStripSlots * static_cast<std::size_t>(std::countr_zero(strips));
-                for (std::size_t c = 0; c < kColours; ++c) {
-                    const std::size_t place = c * kBlockSize + slot;
-                    take_plane(&sums_[block][place], block * kSumsPerBlock + place, targets);
+    // [3][256]; null if nothing was added.
+    [[nodiscard]] const float* of_block(std::size_t block) const {
+        return touched_[block] != 0 ? sums_[block].data() : nullptr;
+    }
+
+    // Adds the block's sums to the targets, if any.
+    void add_to(std::size_t block, const SumTargets& targets) const {
+        for_each_touched_run(block, [&](std::size_t place) {
+            const hn::CappedTag<float, kStripSlots> df;
+            const std::size_t first = block * kSumsPerBlock + place;
+            for (std::size_t i = 0; i < kStripSlots; i += hn::Lanes(df)) {
+                const auto sum = hn::Load(df, &sums_[block][place + i]);
+                add_one(df, sum, targets.sums + first + i);
+                if (targets.total != nullptr) {
+                    add_one(df, sum, targets.total + first + i);
                 }
             }
-            touched_[block] = 0;
-        }
+        });
+    }
+
+    void clear(std::size_t block) {
+        for_each_touched_run(block, [&](std::size_t place) {
+            std::fill_n(&sums_[block][place], kStripSlots, 0.0F);
+        });
+        touched_[block] = 0;
     }
 
   private:
@@ -110,17 +122,15 @@ class StripSums {
         }
     }
 
-    static HWY_INLINE void take_plane(float* HWY_RESTRICT from,
-                                      std::size_t first,
-                                      const SumTargets& targets) {
-        const hn::CappedTag<float, kStripSlots> df;
-        for (std::size_t i = 0; i < kStripSlots; i += hn::Lanes(df)) {
-            const auto sum = hn::Load(df, from + i);
-            add_one(df, sum, targets.sums + first + i);
-            if (targets.total != nullptr) {
-                add_one(df, sum, targets.total + first + i);
+    // The places of eight sums each, in every colour.
+    template <typename Visit>
+    HWY_INLINE void for_each_touched_run(std::size_t block, const Visit& visit) const {
+        for (std::uint32_t strips = touched_[block]; strips != 0; strips &= strips - 1) {
+            const std::size_t slot =
+                kStripSlots * static_cast<std::size_t>(std::countr_zero(strips));
+            for (std::size_t c = 0; c < kColours; ++c) {
+                visit(c * kBlockSize + slot);
             }
-            hn::Store(hn::Zero(df), df, from + i);
         }
     }
 

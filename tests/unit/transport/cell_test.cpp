@@ -28,10 +28,15 @@ TEST(Cell, TakesAnEncodingThatFits) {
         std::size_t bytes;
     };
     const Case cases[] = {
-        {0, 0, CellTag::empty, 0},           {1, -128, CellTag::strips8, 4},
-        {31, 1, CellTag::strips8, 94},       {256, 127, CellTag::dense8, 256},
-        {1, 128, CellTag::split_strips8, 8}, {256, -32768, CellTag::dense16, 512},
-        {256, 32767, CellTag::dense16, 512}, {1, 32768, CellTag::dense32f, 1024},
+        {0, 0, CellTag::empty, 0},
+        {1, -128, CellTag::strips8, 4},
+        {31, 1, CellTag::strips8, 94},
+        {256, 127, CellTag::dense8, 256},
+        {1, 128, CellTag::split_strips8, 8},
+        {256, -32768, CellTag::dense16, 512},
+        {256, 32767, CellTag::dense16, 512},
+        {1, 65536 + 256 + 1, CellTag::split3_strips8, 12},
+        {1, 1 << 24, CellTag::dense32f, 1024},
     };
     for (const Case& expected : cases) {
         std::vector<std::uint8_t> bytes;
@@ -72,7 +77,7 @@ TEST(Cell, MatchesTheWorkedExample) {
 
 // In every encoding that fits.
 RC_GTEST_PROP(Cell, ComesBackFromItsBytes, ()) {
-    const int range = *rc::gen::element(1, 127, 128, 32767, 32768, 1 << 24);
+    const int range = *rc::gen::element(1, 127, 128, 32767, 32768, 8000000, 1 << 24);
     const int zeros_of_8 = *rc::gen::inRange(0, 9);
     std::mt19937 random(*rc::gen::arbitrary<unsigned>());
     std::uniform_int_distribution<int> value(-range, range);
@@ -108,7 +113,7 @@ TEST(Cell, SplitsWhereFewValuesAreWide) {
         cell[0] = 2000;
         cell[255] = -32768 + 128;
         std::vector<std::uint8_t> bytes;
-        EXPECT_TRUE(is_split(append_cell(cell, bytes)));
+        EXPECT_EQ(upper_parts(append_cell(cell, bytes)), 1U);
     }
 }
 
@@ -134,8 +139,9 @@ TEST(Cell, RefusesWhatTheFormatForbids) {
         refuses(5, zeros);
     }
     {
-        SCOPED_TRACE("split without low parts");
+        SCOPED_TRACE("split without low parts, or without the upper of two");
         refuses(6, {1, 0, 1, 1});
+        refuses(8, {1, 0, 1, 1, 0, 1, 0, 1, 1});
     }
     {
         SCOPED_TRACE("strips: none, not ascending, beyond the block, empty, values missing");

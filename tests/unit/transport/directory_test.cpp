@@ -41,7 +41,7 @@ TEST_P(Directory, OpensWhatWasWritten) {
     EXPECT_EQ(transport->channel_count(), options_.channels);
     EXPECT_EQ(transport->shards().size(), 2U);
     EXPECT_EQ(transport->manifest().measured.at("note"), "random");
-    EXPECT_GT(transport->manifest().measured.at("cells").at("dense32f").at("cells"), 0);
+    EXPECT_GT(transport->manifest().measured.at("cells").at("split3_dense8").at("cells"), 0);
 }
 
 // A manifest that names another order than the shards were written with.
