@@ -91,8 +91,10 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
 
 // Towards the poles the texels of a lat-long map become narrow, and one pixel spans many of
 // them side by side.
-Imath::V3f lat_long_lookup(const Level& level, const MapPoint& point, float footprint_side) {
-    const float cos_latitude = std::cos(std::numbers::pi_v<float> * (0.5F - point.y));
+Imath::V3f lat_long_lookup(const Level& level,
+                           const MapPoint& point,
+                           float cos_latitude,
+                           float footprint_side) {
     const float full_turn = 2 * std::numbers::pi_v<float>;
     const float span =
         std::min(1.0F, footprint_side / std::max(full_turn * cos_latitude, 1e-6F));
@@ -126,9 +128,12 @@ Imath::V3f EnvironmentMap::radiance(const Imath::V3f& source_direction,
     const float level = std::clamp(finest, 0.0F, static_cast<float>(levels_.size() - 1));
     const auto lower = static_cast<std::size_t>(level);
     const float fraction = level - static_cast<float>(lower);
+    const Imath::V3f& d = source_direction;
+    const float cos_latitude = std::sqrt((d.x * d.x + d.z * d.z) / d.dot(d));
     const auto lookup = [&](const Level& at) {
-        return layout_ == Layout::lat_long ? lat_long_lookup(at, point, footprint_side)
-                                           : bilinear(layout_, at, point);
+        return layout_ == Layout::lat_long
+                   ? lat_long_lookup(at, point, cos_latitude, footprint_side)
+                   : bilinear(layout_, at, point);
     };
     if (fraction == 0) {
         return lookup(levels_[lower]);

@@ -32,12 +32,12 @@ DisplayTable::DisplayTable(const wire::Display& display) {
     thresholds_[256] = std::numeric_limits<float>::quiet_NaN();  // nothing reaches it
     // The table begins below the first threshold, where the code is 0, and ends far above the
     // last one, whatever the exposure.
-    first_bin_ = std::bit_cast<std::uint32_t>(thresholds_[1]) >> kBinShift;
+    first_bin_ = std::bit_cast<std::uint32_t>(thresholds_[1]) >> DisplayTables::kBinShift;
     first_bin_ = first_bin_ == 0 ? 0 : first_bin_ - 1;
     std::size_t code = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
-        const float lower_end =
-            std::bit_cast<float>(static_cast<std::uint32_t>((first_bin_ + bin) << kBinShift));
+        const float lower_end = std::bit_cast<float>(
+            static_cast<std::uint32_t>((first_bin_ + bin) << DisplayTables::kBinShift));
         while (code < 255 && lower_end >= thresholds_[code + 1]) {
             ++code;
         }
@@ -46,7 +46,12 @@ DisplayTable::DisplayTable(const wire::Display& display) {
 }
 
 void DisplayTable::codes(std::span<const float> linear, std::span<std::uint8_t> codes) const {
-    std::transform(linear.begin(), linear.end(), codes.begin(),
+    const DisplayTables tables{
+        .first_bin = first_bin_, .thresholds = thresholds_.data(), .codes = codes_.data()};
+    const std::size_t done =
+        write_vectors_of_codes(tables, linear.data(), linear.size(), codes.data());
+    std::transform(linear.begin() + static_cast<std::ptrdiff_t>(done), linear.end(),
+                   codes.begin() + static_cast<std::ptrdiff_t>(done),
                    [this](float value) { return code(value); });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "protocol/wire/session_state.h"
+#include "server/net/display_kernel.h"
 
 #include <array>
 #include <bit>
@@ -27,7 +28,7 @@ class DisplayTable {
             return 0;
         }
         const std::uint32_t bits = std::bit_cast<std::uint32_t>(linear);
-        const std::uint32_t bin = bits >> kBinShift;
+        const std::uint32_t bin = bits >> DisplayTables::kBinShift;
         const std::uint32_t clamped = bin < first_bin_ ? 0 : bin - first_bin_;
         const std::size_t code = codes_[clamped < kBins ? clamped : kBins - 1];
         return static_cast<std::uint8_t>(code + (linear >= thresholds_[code + 1] ? 1 : 0));
@@ -37,13 +38,11 @@ class DisplayTable {
     void codes(std::span<const float> linear, std::span<std::uint8_t> codes) const;
 
   private:
-    // 8 bits of mantissa, 32 powers of two.
-    static constexpr std::uint32_t kBinShift = 15;
-    static constexpr std::size_t kBins = 32 << 8;
+    static constexpr std::size_t kBins = DisplayTables::kBins;
 
     std::uint32_t first_bin_ = 0;
     std::array<float, 257> thresholds_{};  // the least value that gets this code or more
-    std::array<std::uint8_t, kBins> codes_{};
+    std::array<std::uint8_t, kBins + DisplayTables::kCodesTail> codes_{};
 };
 
 }  // namespace relume::net

@@ -3,6 +3,7 @@
 #include "protocol/wire/display.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -54,6 +55,33 @@ TEST_P(DisplayTableLaws, HandlesWhatLiesOutside) {
     EXPECT_EQ(table.code(std::numeric_limits<float>::denorm_min()), 0);
     EXPECT_EQ(table.code(std::numeric_limits<float>::max()), 255);
     EXPECT_EQ(table.code(kInfinity), 255);
+}
+
+// Of many values at once the codes of each, on every instruction set, whatever their number.
+TEST_P(DisplayTableLaws, GivesManyTheCodesOfEach) {
+    const DisplayTable table(GetParam());
+    std::vector<float> values = shown_values(GetParam());
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const float outside :
+         {0.0F, -0.0F, -1.0F, -kInfinity, kInfinity, std::numeric_limits<float>::quiet_NaN(),
+          -std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::denorm_min(),
+          std::numeric_limits<float>::max()}) {
+        values.insert(values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), outside);
+    }
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{15},
+                                        std::size_t{33}, values.size()}) {
+            const std::span<const float> some(values.data() + (values.size() - count) / 2,
+                                              count);
+            std::vector<std::uint8_t> codes(count);
+            table.codes(some, codes);
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_EQ(codes[i], table.code(some[i])) << some[i];
+            }
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All,
