@@ -182,21 +182,22 @@ bool has_band(std::uint32_t bands, std::uint32_t band) {
 
 }  // namespace
 
-bool BandImages::Drift::add(double norm_of_changes) {
+bool BandImages::Drift::add(double norm_of_changes, std::size_t changes) {
     constexpr unsigned kUpdatesUnmeasured = 16;
     constexpr double kLoose = 2;
+    // Of few columns the sum of norms says enough; of many, far too much.
+    constexpr std::size_t kFewChanges = 64;
     const bool begins = norm == 0 && updates_since == 0;
     norm += norm_of_changes;
-    known_norm = begins ? norm : known_norm;
+    if (begins) {
+        known_norm = norm;
+        return changes > kFewChanges;
+    }
     if (updates_since >= kUpdatesUnmeasured || norm > kLoose * known_norm) {
         return true;
     }
     ++updates_since;
     return false;
-}
-
-double BandImages::Drift::error() const {
-    return std::numeric_limits<float>::epsilon() / 2 * std::sqrt(squared_norms);
 }
 
 BandImages::BandImages(const Scene& scene)
@@ -243,7 +244,7 @@ std::uint32_t BandImages::begin_update(const Update& update) {
         if (has_band(update.bands_to_clear, band)) {
             drift_[band] = {};
         }
-        if (!changes.empty() && drift_[band].add(norm_of(changes))) {
+        if (!changes.empty() && drift_[band].add(norm_of(changes), changes.size())) {
             bands_to_measure |= 1U << band;
         }
     }
@@ -251,6 +252,8 @@ std::uint32_t BandImages::begin_update(const Update& update) {
 }
 
 void BandImages::end_update(const Update& update, std::uint32_t bands_measured) {
+    unsigned additions = 0;
+    double total_norm = 0;  // not less than the total's
     for (std::uint32_t band = 0; band < drift_.size(); ++band) {
         Drift& drift = drift_[band];
         if (has_band(bands_measured, band)) {
@@ -259,8 +262,13 @@ void BandImages::end_update(const Update& update, std::uint32_t bands_measured) 
         }
         if (!changes_of_band(update.changes, scene_->bands(), band).empty()) {
             drift.update_is_done();
+            ++additions;
         }
+        total_norm += drift.norm;
     }
+    total_squared_norms_ = update.bands_to_clear != 0
+                               ? 0
+                               : total_squared_norms_ + additions * total_norm * total_norm;
 }
 
 void BandImages::update_shard(std::size_t shard,
@@ -308,6 +316,7 @@ void BandImages::rebuild_together(std::size_t first_shard,
     for (const Rebuild& rebuild : rebuilds) {
         std::fill(rebuild.images->drift_.begin(), rebuild.images->drift_.end(),
                   Drift::of_unknown_norm());
+        rebuild.images->total_squared_norms_ = 0;
     }
 }
 
@@ -393,17 +402,19 @@ double BandImages::norm_of(std::span<const ColumnChange> changes) const {
 }
 
 double BandImages::rounding_error() const {
-    double sum = 0;
+    double squared_norms = total_squared_norms_;
     for (const Drift& drift : drift_) {
-        sum += drift.error() * drift.error();
+        squared_norms += drift.squared_norms;
     }
-    return std::sqrt(sum);
+    // Half an ε for the additions and half a one for the amounts, which err alike all over the
+    // image.
+    return std::numeric_limits<float>::epsilon() * std::sqrt(squared_norms);
 }
 
 std::uint32_t BandImages::most_drifted_band() const {
-    const auto most =
-        std::max_element(drift_.begin(), drift_.end(),
-                         [](const Drift& a, const Drift& b) { return a.error() < b.error(); });
+    const auto most = std::max_element(
+        drift_.begin(), drift_.end(),
+        [](const Drift& a, const Drift& b) { return a.squared_norms < b.squared_norms; });
     return static_cast<std::uint32_t>(most - drift_.begin());
 }
 

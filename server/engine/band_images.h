@@ -26,8 +26,8 @@ class BandImages {
     [[nodiscard]] std::span<const float> total() const { return total_; }
     [[nodiscard]] std::span<const float> band(std::uint32_t band) const { return bands_[band]; }
 
-    // Estimated rounding error left in the total by additions since each band was last made
-    // from nothing, as an L2 norm: per band ε/2 · √(Σ_updates ‖band‖²).
+    // Estimated rounding error left in the total by additions since it and each band were last
+    // made from nothing, as an L2 norm: of each ε·√(Σ_updates ‖image‖²).
     [[nodiscard]] double rounding_error() const;
     // The band that contributes most to it.
     [[nodiscard]] std::uint32_t most_drifted_band() const;
@@ -64,10 +64,10 @@ class BandImages {
 
         // Made from nothing, nobody knows how large.
         [[nodiscard]] static Drift of_unknown_norm() { return {.updates_since = ~0U}; }
-        // An update adds so much at most; whether the norm must be measured after it.
-        bool add(double norm_of_changes);
+        // An update of so many columns adds so much at most; whether the norm must be measured
+        // after it.
+        bool add(double norm_of_changes, std::size_t changes);
         void update_is_done() { squared_norms += norm * norm; }
-        [[nodiscard]] double error() const;
     };
 
     // `bands_to_measure` of each update.
@@ -95,7 +95,9 @@ class BandImages {
     const Scene* scene_;
     std::vector<std::vector<float>> bands_;
     std::vector<float> total_;
-    std::vector<Drift> drift_;             // [bands]
+    std::vector<Drift> drift_;  // [bands]
+    double total_squared_norms_ =
+        0;  // Σ_updates of a band ‖total‖², since the bands were summed
     std::vector<std::uint64_t> occupied_;  // [shards][bands], blocks that are not zero all over
     std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
 };
