@@ -411,6 +411,16 @@ double BandImages::rounding_error() const {
     return std::numeric_limits<float>::epsilon() * std::sqrt(squared_norms);
 }
 
+bool BandImages::total_drifted_most() const {
+    return total_squared_norms_ > drift_[most_drifted_band()].squared_norms;
+}
+
+void BandImages::renew_total() {
+    tbb::parallel_for(std::size_t{0}, scene_->transport().shards().size(),
+                      [this](std::size_t shard) { sum_bands(shard); });
+    total_squared_norms_ = 0;
+}
+
 std::uint32_t BandImages::most_drifted_band() const {
     const auto most = std::max_element(
         drift_.begin(), drift_.end(),

@@ -29,8 +29,10 @@ class BandImages {
     // Estimated rounding error left in the total by additions since it and each band were last
     // made from nothing, as an L2 norm: of each ε·√(Σ_updates ‖image‖²).
     [[nodiscard]] double rounding_error() const;
-    // The band that contributes most to it.
+    // Who contributes most to it: the total, which is made anew from the bands, or a band.
+    [[nodiscard]] bool total_drifted_most() const;
     [[nodiscard]] std::uint32_t most_drifted_band() const;
+    void renew_total();
 
     // What `update` does to each of several images of one scene, at most kMaxBatchMembers, in
     // one sweep over the columns. The same bits, whoever is swept together.

@@ -191,7 +191,11 @@ void Session::plan_is_carried_out(const Plan& plan, StepReport& report) {
 }
 
 void Session::remove_drift(StepReport& report) {
-    if (images_.rounding_error() <= kLargestDrift * error_.shown_norm()) {
+    const double allowed = kLargestDrift * error_.shown_norm();
+    if (images_.rounding_error() > allowed && images_.total_drifted_most()) {
+        images_.renew_total();
+    }
+    if (images_.rounding_error() <= allowed) {
         return;
     }
     const std::uint32_t band = images_.most_drifted_band();
