@@ -1,7 +1,7 @@
 #include "server/engine/band_images.h"
 
+#include "server/engine/column_segments.h"
 #include "server/engine/kernels/vector_loops.h"
-#include "server/engine/swept_segments.h"
 
 #include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
@@ -19,20 +19,19 @@ using transport::kColours;
 
 constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
 
-std::uint64_t all_blocks(const Scene& scene, std::size_t shard) {
-    const std::uint32_t count = scene.transport().shards()[shard].block_count();
-    return ~std::uint64_t{0} >> (transport::kMaxBlocksPerShard - count);
-}
-
 template <typename Visit>
 void for_each_bit(std::uint64_t bits, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1) {
-        visit(static_cast<unsigned>(std::countr_zero(bits)));
+        visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
     }
 }
 
-bool has_band(std::uint32_t bands, std::uint32_t band) {
-    return ((bands >> band) & 1U) != 0;
+constexpr std::uint32_t band_bit(std::uint32_t band) {
+    return std::uint32_t{1} << band;
+}
+
+constexpr bool has_band(std::uint32_t bands, std::uint32_t band) {
+    return (bands & band_bit(band)) != 0;
 }
 
 }  // namespace
@@ -60,13 +59,11 @@ BandImages::BandImages(const Scene& scene)
       bands_(scene.band_count(), std::vector<float>(scene.sum_count())),
       total_(scene.sum_count()),
       drift_(scene.band_count()),
-      occupied_(scene.transport().shards().size() * scene.band_count()),
+      occupied_(scene.block_count()),
       energies_(scene.transport().shards().size() * scene.band_count()) {}
 
-std::span<float> BandImages::part(std::vector<float>& image, std::size_t shard) const {
-    const transport::ShardReader& reader = scene_->transport().shards()[shard];
-    return std::span(image).subspan(reader.first_block() * kSumsPerBlock,
-                                    reader.block_count() * kSumsPerBlock);
+float* BandImages::sums_of(std::vector<float>& image, std::uint32_t block) {
+    return &image[block * kSumsPerBlock];
 }
 
 void BandImages::update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes) {
@@ -130,45 +127,45 @@ void BandImages::end_update(const Update& update, std::uint32_t bands_measured) 
 void BandImages::update_shard(std::size_t shard,
                               std::span<const Update> updates,
                               std::span<const std::uint32_t> bands_to_measure) {
-    const Scene& scene = *updates.front().images->scene_;
-    SweptSegments& swept = SweptSegments::of_this_thread();
-    for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-        swept.begin();
-        for (const Update& update : updates) {
-            BandImages& images = *update.images;
-            if (has_band(update.bands_to_clear, band)) {
-                images.clear_band(shard, band);
-            }
-            const auto of_band = changes_of_band(update.changes, scene.bands(), band);
-            if (!of_band.empty()) {
-                float* total = update.bands_to_clear != 0
-                                   ? nullptr
-                                   : images.part(images.total_, shard).data();
-                images.occupied(shard, band) |= gather_changes(
-                    scene.transport(), shard, of_band,
-                    swept.add({.sums = images.part(images.bands_[band], shard).data(),
-                               .total = total}));
-            }
-        }
-        swept.accumulate(scene.transport().shards()[shard].block_count());
-        for (std::size_t i = 0; i < updates.size(); ++i) {
-            if (has_band(bands_to_measure[i], band)) {
-                updates[i].images->measure_energy(shard, band);
-            }
-        }
-    }
-    for (const Update& update : updates) {
-        if (update.bands_to_clear != 0) {
-            update.images->sum_bands(shard);
-        }
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        BandImages& images = *updates[i].images;
+        images.update_bands(shard, updates[i]);
+        for_each_bit(bands_to_measure[i],
+                     [&](std::uint32_t band) { images.measure_energy(shard, band); });
     }
 }
 
-void BandImages::rebuild_together(std::size_t first_shard,
-                                  std::size_t last_shard,
+void BandImages::update_bands(std::size_t shard, const Update& update) {
+    const transport::ShardReader& reader = scene_->transport().shards()[shard];
+    const std::uint32_t first = reader.first_block();
+    thread_local std::vector<WeightedSegment> segments;
+    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
+        if (has_band(update.bands_to_clear, band)) {
+            for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
+                clear_band(first + b, band);
+            }
+        }
+        const auto of_band = changes_of_band(update.changes, scene_->bands(), band);
+        if (of_band.empty()) {
+            continue;
+        }
+        for_each_bit(gather_segments(scene_->transport(), shard, of_band, segments),
+                     [&](std::uint32_t b) { occupied_[first + b] |= band_bit(band); });
+        accumulate_segments(
+            segments, reader.block_count(),
+            {.sums = sums_of(bands_[band], first),
+             .total = update.bands_to_clear == 0 ? sums_of(total_, first) : nullptr});
+    }
+    for (std::uint32_t b = 0; update.bands_to_clear != 0 && b < reader.block_count(); ++b) {
+        sum_bands(first + b);
+    }
+}
+
+void BandImages::rebuild_together(std::uint32_t first_block,
+                                  std::uint32_t last_block,
                                   std::span<const Rebuild> rebuilds) {
-    tbb::parallel_for(first_shard, last_shard,
-                      [&](std::size_t shard) { rebuild_shard(shard, rebuilds); });
+    tbb::parallel_for(first_block, last_block,
+                      [&](std::uint32_t block) { rebuild_block(block, rebuilds); });
     for (const Rebuild& rebuild : rebuilds) {
         std::fill(rebuild.images->drift_.begin(), rebuild.images->drift_.end(),
                   Drift::of_unknown_norm());
@@ -176,59 +173,63 @@ void BandImages::rebuild_together(std::size_t first_shard,
     }
 }
 
-void BandImages::rebuild_shard(std::size_t shard, std::span<const Rebuild> rebuilds) {
+void BandImages::rebuild_block(std::uint32_t block, std::span<const Rebuild> rebuilds) {
     const Scene& scene = *rebuilds.front().images->scene_;
-    SweptSegments& swept = SweptSegments::of_this_thread();
+    boost::container::small_vector<StripMatrix::Member, kMaxBatchMembers> members;
     for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-        swept.begin();
+        members.clear();
         for (const Rebuild& rebuild : rebuilds) {
-            BandImages& images = *rebuild.images;
-            images.clear_band(shard, band);
-            images.occupied(shard, band) = all_blocks(scene, shard);
-            gather_lighting(scene, shard, band, rebuild.lighting,
-                            swept.add({.sums = images.part(images.bands_[band], shard).data(),
-                                       .total = nullptr}));
+            rebuild.images->clear_band(block, band);
+            members.push_back({.weights = rebuild.weights,
+                               .sums = sums_of(rebuild.images->bands_[band], block)});
         }
-        swept.accumulate(scene.transport().shards()[shard].block_count());
+        scene.strips().multiply(block, band, std::span(members.data(), members.size()));
     }
     for (const Rebuild& rebuild : rebuilds) {
-        rebuild.images->sum_bands(shard);
+        rebuild.images->occupied_[block] = scene.strips().bands_of_block(block);
+        rebuild.images->sum_bands(block);
     }
 }
 
-std::span<float> BandImages::block(std::vector<float>& image,
-                                   std::size_t shard,
-                                   unsigned block) const {
-    return part(image, shard).subspan(block * kSumsPerBlock, kSumsPerBlock);
+void BandImages::renew_band(std::uint32_t band, const ColumnWeights& weights) {
+    tbb::parallel_for(std::uint32_t{0}, scene_->block_count(), [&](std::uint32_t block) {
+        clear_band(block, band);
+        const StripMatrix::Member member{.weights = &weights,
+                                         .sums = sums_of(bands_[band], block)};
+        scene_->strips().multiply(block, band, {&member, 1});
+        occupied_[block] |= scene_->strips().bands_of_block(block) & band_bit(band);
+        sum_bands(block);
+    });
+    drift_[band] = Drift::of_unknown_norm();
+    total_squared_norms_ = 0;
 }
 
-void BandImages::clear_band(std::size_t shard, std::uint32_t band) {
-    for_each_bit(occupied(shard, band), [&](unsigned b) {
-        const std::span<float> sums = block(bands_[band], shard, b);
-        std::fill(sums.begin(), sums.end(), 0.0F);
-    });
-    occupied(shard, band) = 0;
+void BandImages::clear_band(std::uint32_t block, std::uint32_t band) {
+    if (has_band(occupied_[block], band)) {
+        std::fill_n(sums_of(bands_[band], block), kSumsPerBlock, 0.0F);
+        occupied_[block] &= ~band_bit(band);
+    }
 }
 
 void BandImages::measure_energy(std::size_t shard, std::uint32_t band) {
+    const transport::ShardReader& reader = scene_->transport().shards()[shard];
     double energy = 0;
-    for_each_bit(occupied(shard, band),
-                 [&](unsigned b) { energy += squared_norm(block(bands_[band], shard, b)); });
+    for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
+        const std::uint32_t block = reader.first_block() + b;
+        if (has_band(occupied_[block], band)) {
+            energy += squared_norm({sums_of(bands_[band], block), kSumsPerBlock});
+        }
+    }
     energies_[shard * bands_.size() + band] = energy;
 }
 
-// Block by block, so that the total stays in the first-level cache.
-void BandImages::sum_bands(std::size_t shard) {
-    for_each_bit(all_blocks(*scene_, shard), [&](unsigned b) {
-        const std::span<float> total = block(total_, shard, b);
-        std::fill(total.begin(), total.end(), 0.0F);
-        for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-            if (((occupied(shard, band) >> b) & 1U) != 0) {
-                const std::span<const float> sums = block(bands_[band], shard, b);
-                for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
-                    total[i] += sums[i];
-                }
-            }
+void BandImages::sum_bands(std::uint32_t block) {
+    float* total = sums_of(total_, block);
+    std::fill_n(total, kSumsPerBlock, 0.0F);
+    for_each_bit(occupied_[block], [&](std::uint32_t band) {
+        const float* sums = sums_of(bands_[band], block);
+        for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
+            total[i] += sums[i];
         }
     });
 }
@@ -272,8 +273,8 @@ bool BandImages::total_drifted_most() const {
 }
 
 void BandImages::renew_total() {
-    tbb::parallel_for(std::size_t{0}, scene_->transport().shards().size(),
-                      [this](std::size_t shard) { sum_bands(shard); });
+    tbb::parallel_for(std::uint32_t{0}, scene_->block_count(),
+                      [this](std::uint32_t block) { sum_bands(block); });
     total_squared_norms_ = 0;
 }
 

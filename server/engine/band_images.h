@@ -3,6 +3,7 @@
 
 #include "server/engine/column_change.h"
 #include "server/engine/scene.h"
+#include "server/engine/strip_matrix.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,9 +12,12 @@
 
 namespace relume::engine {
 
-// Sums are [blocks][3][256], in the basis of the blocks, before tint. Work is spread over
-// shards; a block's sums are made by one thread in one order, so the result does not depend on
-// the number of threads. Not thread-safe.
+// Most sessions that are relit in one sweep.
+inline constexpr std::size_t kMaxBatchMembers = 16;
+
+// Sums are [blocks][3][256], in the basis of the blocks, before tint. A block's sums are made by
+// one thread in one order, so the result does not depend on the number of threads. Not
+// thread-safe.
 class BandImages {
   public:
     explicit BandImages(const Scene& scene);
@@ -33,9 +37,12 @@ class BandImages {
     [[nodiscard]] bool total_drifted_most() const;
     [[nodiscard]] std::uint32_t most_drifted_band() const;
     void renew_total();
+    // Makes the band from nothing, and the total from the bands.
+    void renew_band(std::uint32_t band, const ColumnWeights& weights);
 
     // What `update` does to each of several images of one scene, at most kMaxBatchMembers, in
-    // one sweep over the columns. The same bits, whoever is swept together.
+    // one sweep over the shards, so that what they have in common is read from memory once. The
+    // same bits, whoever is swept together.
     struct Update {
         BandImages* images = nullptr;  // no two the same
         std::uint32_t bands_to_clear = 0;
@@ -43,16 +50,16 @@ class BandImages {
     };
     static void update_together(std::span<const Update> updates);
 
-    // For images made from nothing, some shards at a time, and again several of them in one
-    // sweep: all bands and the total of shards [first, last) become the product of the
-    // lighting, planar [3][N]. Every shard must get its turn with the same lighting before the
-    // total means anything. Depends on the lighting alone, to the last bit.
+    // For images made from nothing, some blocks at a time, and again several of them in one
+    // sweep: all bands and the total of blocks [first, last) become the whole product by the
+    // weights. Every block must get its turn with the same weights before the total means
+    // anything. Depends on the weights alone, to the last bit.
     struct Rebuild {
         BandImages* images = nullptr;  // no two the same
-        std::span<const float> lighting;
+        const ColumnWeights* weights = nullptr;
     };
-    static void rebuild_together(std::size_t first_shard,
-                                 std::size_t last_shard,
+    static void rebuild_together(std::uint32_t first_block,
+                                 std::uint32_t last_block,
                                  std::span<const Rebuild> rebuilds);
 
   private:
@@ -79,20 +86,15 @@ class BandImages {
     // What an update does to the drift; the mask of the bands whose norm is to be measured.
     [[nodiscard]] std::uint32_t begin_update(const Update& update);
     void end_update(const Update& update, std::uint32_t bands_measured);
-    static void rebuild_shard(std::size_t shard, std::span<const Rebuild> rebuilds);
-    void clear_band(std::size_t shard, std::uint32_t band);
+    void update_bands(std::size_t shard, const Update& update);
+    static void rebuild_block(std::uint32_t block, std::span<const Rebuild> rebuilds);
+    void clear_band(std::uint32_t block, std::uint32_t band);
     void measure_energy(std::size_t shard, std::uint32_t band);
-    void sum_bands(std::size_t shard);
+    void sum_bands(std::uint32_t block);
     [[nodiscard]] double measured_norm(std::uint32_t band) const;
     [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
-    [[nodiscard]] std::span<float> part(std::vector<float>& image, std::size_t shard) const;
-    [[nodiscard]] std::uint64_t& occupied(std::size_t shard, std::uint32_t band) {
-        return occupied_[shard * bands_.size() + band];
-    }
-    // Sums of the shard's block.
-    [[nodiscard]] std::span<float> block(std::vector<float>& image,
-                                         std::size_t shard,
-                                         unsigned block) const;
+    // Sums of a block and, as they lie one after the other, of those that follow.
+    [[nodiscard]] static float* sums_of(std::vector<float>& image, std::uint32_t block);
 
     const Scene* scene_;
     std::vector<std::vector<float>> bands_;
@@ -100,7 +102,7 @@ class BandImages {
     std::vector<Drift> drift_;  // [bands]
     double total_squared_norms_ =
         0;  // Σ_updates of a band ‖total‖², since the bands were summed
-    std::vector<std::uint64_t> occupied_;  // [shards][bands], blocks that are not zero all over
+    std::vector<std::uint32_t> occupied_;  // [blocks], bands that are not zero all over
     std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
 };
 

@@ -4,19 +4,6 @@
 
 namespace relume::engine {
 
-std::vector<ColumnChange> changes_from_nothing(const Scene& scene,
-                                               std::span<const float> lighting,
-                                               std::uint32_t band) {
-    std::vector<ColumnChange> columns;
-    for (const std::uint32_t column : scene.columns_of_band(band)) {
-        const ColumnChange change = column_of(scene, lighting, column);
-        if (!change.is_nothing()) {
-            columns.push_back(change);
-        }
-    }
-    return columns;
-}
-
 std::span<const ColumnChange> changes_of_band(std::span<const ColumnChange> changes,
                                               std::span<const std::uint8_t> bands,
                                               std::uint32_t band) {

@@ -1,35 +1,38 @@
 #include "server/engine/full_product.h"
 
-#include "server/engine/kernels/accumulate_batch.h"
-
 #include <boost/container/small_vector.hpp>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <utility>
 
 namespace relume::engine {
+namespace {
 
-void FullProduct::start(std::span<const float> lighting, std::size_t first_shard) {
+// Enough to occupy all threads of a few processors evenly, and a few hundred microseconds.
+constexpr std::uint64_t kFewestBlocks = 16;
+
+}  // namespace
+
+void FullProduct::start(std::span<const float> lighting, std::uint32_t first_block) {
     if (images_.empty()) {
         images_.emplace_back(*scene_);
     }
-    lighting_.assign(lighting.begin(), lighting.end());
-    next_shard_ = first_shard;
-    shards_left_ = scene_->transport().shards().size();
+    scene_->strips().set_weights(scene_->transport(), lighting, weights_);
+    next_block_ = first_block;
+    blocks_left_ = scene_->block_count();
 }
 
 std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> products,
                                             std::uint64_t bytes) {
-    boost::container::small_vector<FullProduct*, kMaxBatchMembers> by_shard(products.begin(),
+    boost::container::small_vector<FullProduct*, kMaxBatchMembers> by_block(products.begin(),
                                                                             products.end());
-    std::sort(by_shard.begin(), by_shard.end(), [](const FullProduct* a, const FullProduct* b) {
-        return a->next_shard_ < b->next_shard_;
+    std::sort(by_block.begin(), by_block.end(), [](const FullProduct* a, const FullProduct* b) {
+        return a->next_block_ < b->next_block_;
     });
     std::uint64_t read = 0;
-    for (auto first = by_shard.begin(); first != by_shard.end();) {
-        const auto last = std::find_if(first, by_shard.end(), [&](const FullProduct* other) {
-            return other->next_shard_ != (*first)->next_shard_;
+    for (auto first = by_block.begin(); first != by_block.end();) {
+        const auto last = std::find_if(first, by_block.end(), [&](const FullProduct* other) {
+            return other->next_block_ != (*first)->next_block_;
         });
         const auto count =
             std::min(last - first, static_cast<std::ptrdiff_t>(kMaxBatchMembers));
@@ -41,25 +44,23 @@ std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> produc
 
 std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::uint64_t bytes) {
     const Scene& scene = *products.front()->scene_;
-    const std::size_t shards = scene.transport().shards().size();
-    const std::uint64_t bytes_per_shard = scene.transport().total_bytes() / shards + 1;
-    const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-    // A slice that would leave threads idle takes no less time than one that occupies them all.
-    const std::uint64_t wanted = std::max(bytes / bytes_per_shard / threads * threads, threads);
-    const std::size_t first = products.front()->next_shard_;
-    std::size_t last = std::min<std::uint64_t>(shards, first + wanted);
+    const std::uint32_t blocks = scene.block_count();
+    const std::uint64_t bytes_per_block = scene.transport().total_bytes() / blocks + 1;
+    const std::uint32_t first = products.front()->next_block_;
+    auto last = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        blocks, first + std::max(bytes / bytes_per_block, kFewestBlocks)));
     boost::container::small_vector<BandImages::Rebuild, kMaxBatchMembers> rebuilds;
     for (FullProduct* product : products) {
-        last = std::min(last, first + product->shards_left_);
+        last = std::min(last, first + product->blocks_left_);
         rebuilds.push_back(
-            {.images = &product->images_.front(), .lighting = product->lighting_});
+            {.images = &product->images_.front(), .weights = &product->weights_});
     }
     BandImages::rebuild_together(first, last, std::span(rebuilds.data(), rebuilds.size()));
     for (FullProduct* product : products) {
-        product->next_shard_ = last % shards;
-        product->shards_left_ -= last - first;
+        product->next_block_ = last % blocks;
+        product->blocks_left_ -= last - first;
     }
-    return bytes_per_shard * (last - first) * products.size();
+    return bytes_per_block * (last - first) * products.size();
 }
 
 void FullProduct::exchange(BandImages& images) {

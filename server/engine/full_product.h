@@ -18,14 +18,14 @@ class FullProduct {
   public:
     explicit FullProduct(const Scene& scene) : scene_(&scene) {}
 
-    [[nodiscard]] bool running() const { return shards_left_ > 0; }
-    // Begins anew with this lighting, planar [3][N], at any shard: it goes around. Products
-    // that stand at the same shard are swept together.
-    void start(std::span<const float> lighting, std::size_t first_shard = 0);
-    void abandon() { shards_left_ = 0; }
-    [[nodiscard]] std::size_t next_shard() const { return next_shard_; }
+    [[nodiscard]] bool running() const { return blocks_left_ > 0; }
+    // Begins anew with this lighting, planar [3][N], at any block: it goes around. Products
+    // that stand at the same block are swept together.
+    void start(std::span<const float> lighting, std::uint32_t first_block = 0);
+    void abandon() { blocks_left_ = 0; }
+    [[nodiscard]] std::uint32_t next_block() const { return next_block_; }
 
-    // Each of the products, all running and of one scene, goes through at least one shard, and
+    // Each of the products, all running and of one scene, goes through some blocks, and
     // on until about `bytes` of columns have been read; returns the bytes read, those that
     // several shared counted for each. One ends with running() false when all is done.
     static std::uint64_t advance_together(std::span<FullProduct* const> products,
@@ -39,14 +39,14 @@ class FullProduct {
     void exchange(BandImages& images);
 
   private:
-    // All of them stand at the same shard.
+    // All of them stand at the same block.
     static std::uint64_t sweep(std::span<FullProduct* const> products, std::uint64_t bytes);
 
     const Scene* scene_;
     std::vector<BandImages> images_;  // none until first needed, then one
-    std::vector<float> lighting_;
-    std::size_t next_shard_ = 0;
-    std::size_t shards_left_ = 0;
+    ColumnWeights weights_;
+    std::uint32_t next_block_ = 0;
+    std::uint32_t blocks_left_ = 0;
 };
 
 }  // namespace relume::engine

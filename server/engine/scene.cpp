@@ -33,6 +33,7 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
         }
     }
     order_by_band();
+    strips_ = std::make_unique<const StripMatrix>(*transport_, columns_by_band_, band_chunks_);
 }
 
 void Scene::order_by_band() {

@@ -4,6 +4,8 @@
 #include "protocol/basis/cubemap_projection.h"
 #include "protocol/transport/transport.h"
 #include "protocol/wire/session_state.h"
+#include "server/engine/band_chunk.h"
+#include "server/engine/strip_matrix.h"
 
 #include <array>
 #include <cstdint>
@@ -12,13 +14,6 @@
 #include <vector>
 
 namespace relume::engine {
-
-// Places [first, last) in Scene::columns_by_band, all of one band.
-struct BandChunk {
-    std::uint32_t band = 0;
-    std::size_t first = 0;
-    std::size_t last = 0;
-};
 
 // Immutable; safe to share between threads.
 class Scene {
@@ -63,6 +58,13 @@ class Scene {
     // lighting are parallel over, so that their sums do not depend on the number of threads.
     [[nodiscard]] std::span<const BandChunk> band_chunks() const { return band_chunks_; }
 
+    // The transport arranged for whole products.
+    [[nodiscard]] const StripMatrix& strips() const { return *strips_; }
+    // Bytes of memory: the mapped transport and the strips.
+    [[nodiscard]] std::uint64_t bytes() const {
+        return transport_->total_bytes() + strips_->bytes();
+    }
+
     // What a coefficient's change is multiplied with, per colour, to rank it: [3][N], planar.
     //   none       1                                             [Ng03 §4.1, unweighted]
     //   area       2^−octave of the band: a wavelet's amplitude·area [Ng03 §4.1,
@@ -84,6 +86,7 @@ class Scene {
     std::vector<std::uint32_t> places_;
     std::vector<BandChunk> band_chunks_;
     std::array<std::vector<float>, 4> weights_;
+    std::unique_ptr<const StripMatrix> strips_;
 };
 
 }  // namespace relume::engine

@@ -1,6 +1,5 @@
 #include "server/engine/session.h"
 
-#include "server/engine/kernels/accumulate_batch.h"
 #include "server/engine/relit_image.h"
 
 #include <boost/container/small_vector.hpp>
@@ -199,10 +198,11 @@ void Session::remove_drift(StepReport& report) {
         return;
     }
     const std::uint32_t band = images_.most_drifted_band();
-    const auto columns = changes_from_nothing(*scene_, lighting_.approximation(), band);
-    images_.update(1U << band, columns);
-    for (const ColumnChange& column : columns) {
-        report.bytes_touched += scene_->transport().column_bytes(column.column);
+    scene_->strips().set_weights(scene_->transport(), lighting_.approximation(),
+                                 renewing_weights_);
+    images_.renew_band(band, renewing_weights_);
+    for (const std::uint32_t column : scene_->columns_of_band(band)) {
+        report.bytes_touched += scene_->transport().column_bytes(column);
     }
 }
 
@@ -245,10 +245,10 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
     const auto runs =
         std::find_if(products.begin(), products.end(),
                      [](const FullProduct* product) { return product->running(); });
-    const std::size_t first_shard = runs == products.end() ? 0 : (*runs)->next_shard();
+    const std::uint32_t first_block = runs == products.end() ? 0 : (*runs)->next_block();
     for (std::size_t i = 0; i < turns.size(); ++i) {
         if (!products[i]->running()) {
-            products[i]->start(turns[i]->session->lighting_.target(), first_shard);
+            products[i]->start(turns[i]->session->lighting_.target(), first_block);
         }
     }
     const Stopwatch stopwatch;

@@ -128,6 +128,7 @@ class Session {
     CostModel cost_;
     CostModel product_cost_;
     FullProduct full_product_;
+    ColumnWeights renewing_weights_;  // none until a band has drifted
     std::uint32_t remaining_ = 0;
     bool lighting_is_new_ = false;
     // Error and choosing sketch do not know the approximation: it was made exact without them.

@@ -1,7 +1,7 @@
 #include "server/net/server.h"
 
 #include "protocol/transport/atomic_file.h"
-#include "server/engine/kernels/accumulate_batch.h"
+#include "server/engine/band_images.h"
 #include "server/net/access.h"
 #include "server/net/http_routes.h"
 #include "server/net/listener.h"

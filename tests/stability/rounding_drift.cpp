@@ -140,9 +140,14 @@ Uncompensated add_without_end(const engine::Scene& scene,
         std::transform(wanted.begin(), wanted.end(), shown.begin(), difference.begin(),
                        std::minus<>());
         changes.clear();
-        for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-            const auto of_band = engine::changes_from_nothing(scene, difference, band);
-            changes.insert(changes.end(), of_band.begin(), of_band.end());
+        const std::size_t count = scene.coefficient_count();
+        for (const std::uint32_t j : scene.columns_by_band()) {
+            changes.push_back(
+                {.column = j,
+                 .amount = {difference[j], difference[count + j], difference[2 * count + j]}});
+            if (changes.back().is_nothing()) {
+                changes.pop_back();
+            }
         }
         images.update(0, changes);
         shown = wanted;

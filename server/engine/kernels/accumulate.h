@@ -16,7 +16,6 @@ using ColourWeights = std::array<float, transport::kColours>;
 struct WeightedSegment {
     transport::SegmentView segment;  // not empty
     ColourWeights weights;
-    std::uint32_t stretch = 0;  // a group has segments of one stretch only
 };
 
 // Where the segments of one shard are added: [block_count][3][256], with no overlap. `total`
@@ -32,13 +31,12 @@ inline constexpr std::size_t kMaxGroupSegments = 256;
 inline constexpr std::size_t kMaxGroupBytes = std::size_t{256} << 10U;
 
 // The first group of those that are left; at least one segment. Where groups end depends on the
-// list alone, unless its stretches are shorter than groups may be.
+// list alone.
 [[nodiscard]] inline std::span<const WeightedSegment> next_group(
     std::span<const WeightedSegment> left) {
     std::size_t count = 0;
     std::size_t bytes = 0;
-    while (count < left.size() && count < kMaxGroupSegments && bytes < kMaxGroupBytes &&
-           left[count].stretch == left.front().stretch) {
+    while (count < left.size() && count < kMaxGroupSegments && bytes < kMaxGroupBytes) {
         const transport::SegmentView& segment = left[count++].segment;
         bytes += static_cast<std::size_t>(segment.end - segment.cells);
     }

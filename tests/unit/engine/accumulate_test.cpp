@@ -1,7 +1,6 @@
 #include "server/engine/kernels/accumulate.h"
 
 #include "protocol/transport/cell_cost.h"
-#include "server/engine/kernels/accumulate_batch.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -141,65 +140,6 @@ TEST(Accumulate, EveryTargetGivesTheBitsOfTheScalar) {
                 << count << " segments on " << hwy::TargetName(target);
             EXPECT_EQ(total, expected_total);
             EXPECT_EQ(sums[0], 0.75F);
-        }
-        hwy::SetSupportedTargetsForTest(0);
-        hwy::GetChosenTarget().DeInit();
-    }
-}
-
-// Members that share all, some and none of their segments, with groups that end at different
-// places: each gets what it gets alone.
-TEST(AccumulateBatch, EveryTargetGivesEachMemberTheBitsItGetsAlone) {
-    std::mt19937 random(7);
-    constexpr std::size_t kSegments = kMaxGroupSegments + 50;
-    const auto kinds = cells_of_every_kind();
-    const auto blocks = static_cast<std::uint32_t>(kinds.size());
-    std::vector<Segment> segments;
-    for (std::size_t s = 0; s < kSegments; ++s) {
-        auto cells = kinds;
-        std::shuffle(cells.begin(), cells.end(), random);
-        segments.push_back(segment_of(cells, s % 5));
-    }
-    // In the order of memory, as a shard's are.
-    std::sort(segments.begin(), segments.end(),
-              [](const Segment& a, const Segment& b) { return a.view().tags < b.view().tags; });
-    for (const std::size_t count : {1UL, 2UL, 3UL, 5UL, 11UL, kMaxBatchMembers}) {
-        std::vector<std::vector<WeightedSegment>> lists(count);
-        for (std::size_t m = 0; m < count; ++m) {
-            const unsigned of_ten = m == 0 ? 10 : static_cast<unsigned>(m % 10);
-            for (const WeightedSegment& segment : weighted(segments)) {
-                if (random() % 10 < of_ten) {
-                    lists[m].push_back(segment);
-                    lists[m].back().weights[m % 3] *= -0.3F;
-                    lists[m].back().stretch =
-                        m % 4 == 1 ? static_cast<std::uint32_t>(lists[m].size() / 40) : 0;
-                }
-            }
-        }
-        const std::size_t size = blocks * kColours * kBlockSize;
-        std::vector<std::vector<float>> expected(count, std::vector<float>(size, 0.75F));
-        std::vector<std::vector<float>> expected_total(count, std::vector<float>(size, 0.25F));
-        for (std::size_t m = 0; m < count; ++m) {
-            accumulate_segments_scalar(
-                lists[m], blocks,
-                {.sums = expected[m].data(),
-                 .total = m % 2 == 0 ? expected_total[m].data() : nullptr});
-        }
-        for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-            hwy::SetSupportedTargetsForTest(target);
-            hwy::GetChosenTarget().DeInit();
-            std::vector<std::vector<float>> sums(count, std::vector<float>(size, 0.75F));
-            std::vector<std::vector<float>> total(count, std::vector<float>(size, 0.25F));
-            std::vector<BatchMember> members;
-            for (std::size_t m = 0; m < count; ++m) {
-                members.push_back(
-                    {.segments = lists[m],
-                     .targets = {.sums = sums[m].data(),
-                                 .total = m % 2 == 0 ? total[m].data() : nullptr}});
-            }
-            accumulate_batch(members, blocks);
-            EXPECT_EQ(sums, expected) << count << " members on " << hwy::TargetName(target);
-            EXPECT_EQ(total, expected_total);
         }
         hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().DeInit();

@@ -1,0 +1,81 @@
+// The transport once more, arranged for whole products: block by block, and in a block all
+// columns' strips at one place side by side.
+#pragma once
+
+#include "protocol/transport/transport.h"
+#include "server/engine/band_chunk.h"
+#include "server/engine/kernels/strip_product.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::engine {
+
+// The weights of all columns, per channel and ordered as the bands are: [K][N][4], what
+// `StripMatrix::multiply` multiplies by.
+using ColumnWeights = std::vector<float>;
+
+// A transport's files are ordered by column, because images of few terms read few columns. To
+// read them all in that order costs two additions in memory for each in a register; in this one
+// a strip's sums stay in registers for hundreds of columns. Immutable; safe to share between
+// threads.
+class StripMatrix {
+  public:
+    // `columns_by_band` and its chunks as Scene has them. In parallel.
+    StripMatrix(const transport::Transport& transport,
+                std::span<const std::uint32_t> columns_by_band,
+                std::span<const BandChunk> chunks);
+
+    [[nodiscard]] std::uint32_t block_count() const {
+        return static_cast<std::uint32_t>(blocks_.size());
+    }
+    // The bands in which a block has anything, a bit each.
+    [[nodiscard]] std::uint32_t bands_of_block(std::uint32_t block) const {
+        return blocks_[block].bands;
+    }
+    // Bytes of memory.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+    // One who has the product made.
+    struct Member {
+        const ColumnWeights* weights = nullptr;
+        float* sums = nullptr;  // of the block and band, [3][256]
+    };
+    // Adds a block's rows of one band, times the members' weights, to their sums. Any number of
+    // members, each getting the bits it would get alone.
+    void multiply(std::uint32_t block,
+                  std::uint32_t band,
+                  std::span<const Member> members) const;
+
+    // Of a lighting, planar [3][N], with the channels' steps and colours.
+    void set_weights(const transport::Transport& transport,
+                     std::span<const float> lighting,
+                     ColumnWeights& weights) const;
+
+  private:
+    // Strips of one chunk of columns, one channel and one kind.
+    struct Run {
+        std::uint16_t chunk = 0;
+        std::uint8_t channel = 0;
+        std::uint8_t kind = 0;
+        std::array<std::uint32_t, transport::kStripsPerBlock + 1> begins{};
+    };
+    struct Block {
+        std::uint32_t bands = 0;
+        std::vector<Run> runs;  // by chunk
+        // Runs of floats have their own columns, too.
+        std::vector<std::uint16_t> columns;
+        std::vector<std::int8_t> values;  // [columns][8]
+        std::vector<std::uint16_t> float_columns;
+        std::vector<float> floats;  // [float_columns][8]
+    };
+    class ShardArranger;
+
+    std::span<const std::uint32_t> columns_by_band_;
+    std::span<const BandChunk> chunks_;
+    std::vector<Block> blocks_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace relume::engine
