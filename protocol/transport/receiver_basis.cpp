@@ -1,5 +1,6 @@
 #include "protocol/transport/receiver_basis.h"
 
+#include "protocol/basis/cpu_clones.h"
 #include "protocol/basis/haar.h"
 
 #include <algorithm>
@@ -9,23 +10,13 @@
 namespace relume::transport {
 namespace {
 
-// Z-order of (x, y), both below 16.
-constexpr std::uint32_t interleaved_bits(std::uint32_t x, std::uint32_t y) {
-    std::uint32_t z = 0;
-    for (std::uint32_t bit = 0; bit < 4; ++bit) {
-        z |= ((x >> bit) & 1U) << (2 * bit);
-        z |= ((y >> bit) & 1U) << (2 * bit + 1);
-    }
-    return z;
-}
-
 // The place in Mallat's pyramid of the coefficient in every slot.
 constexpr std::array<std::uint8_t, kBlockSize> make_pyramid_places() {
     std::array<std::uint8_t, kBlockSize> places{};
     for (std::uint32_t side = 1; side < kTileSide; side *= 2) {
         for (std::uint32_t y = 0; y < side; ++y) {
             for (std::uint32_t x = 0; x < side; ++x) {
-                const std::uint32_t slot = side * side + 3 * interleaved_bits(x, y);
+                const std::uint32_t slot = side * side + 3 * z_order(x, y);
                 const std::uint32_t along_columns = y * kTileSide + side + x;
                 const std::uint32_t along_rows = (side + y) * kTileSide + x;
                 places[slot] = static_cast<std::uint8_t>(along_columns);
@@ -50,13 +41,41 @@ void block_coefficients_from_receivers(std::span<float, kBlockSize> values) {
     }
 }
 
-void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
-    std::array<float, kBlockSize> scratch;
-    std::copy(values.begin(), values.end(), scratch.begin());
-    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
-        values[kPyramidPlaces[slot]] = scratch[slot];
+// One level finer: the four children of a place stand where its Z-order says.
+RELUME_CPU_CLONES void refine(const float* __restrict averages,
+                              const float* __restrict wavelets,
+                              std::size_t places,
+                              float* __restrict finer) {
+    for (std::size_t z = 0; z < places; ++z) {
+        const float a = averages[z];
+        const float h = wavelets[3 * z];
+        const float v = wavelets[3 * z + 1];
+        const float d = wavelets[3 * z + 2];
+        finer[4 * z] = 0.5F * ((a + h) + (v + d));
+        finer[4 * z + 1] = 0.5F * ((a - h) + (v - d));
+        finer[4 * z + 2] = 0.5F * ((a + h) - (v + d));
+        finer[4 * z + 3] = 0.5F * ((a - h) - (v - d));
     }
-    basis::haar_inverse(kTileSide, values, scratch);
+}
+
+void z_ordered_receivers_from_coefficients(std::span<const float, kBlockSize> coefficients,
+                                           std::span<float, kBlockSize> receivers) {
+    std::array<float, kBlockSize / 4> coarser;
+    const float* wavelets = coefficients.data();
+    coarser[0] = coefficients[0];
+    refine(coarser.data(), wavelets + 1, 1, receivers.data());
+    for (std::size_t places = 4; places < kBlockSize; places *= 4) {
+        std::copy_n(receivers.begin(), places, coarser.begin());
+        refine(coarser.data(), wavelets + places, places, receivers.data());
+    }
+}
+
+void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
+    std::array<float, kBlockSize> receivers;
+    z_ordered_receivers_from_coefficients(values, receivers);
+    for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
+        values[slot] = receivers[kZOrder[slot]];
+    }
 }
 
 }  // namespace relume::transport

@@ -11,12 +11,37 @@
 
 #include "protocol/transport/format.h"
 
+#include <array>
+#include <cstdint>
 #include <span>
 
 namespace relume::transport {
 
+// Z-order of (column, row), both below 16.
+[[nodiscard]] constexpr std::uint32_t z_order(std::uint32_t column, std::uint32_t row) {
+    std::uint32_t z = 0;
+    for (std::uint32_t bit = 0; bit < 4; ++bit) {
+        z |= ((column >> bit) & 1U) << (2 * bit);
+        z |= ((row >> bit) & 1U) << (2 * bit + 1);
+    }
+    return z;
+}
+
+// Of every slot.
+inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
+    std::array<std::uint8_t, kBlockSize> order{};
+    for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
+        order[slot] = static_cast<std::uint8_t>(z_order(slot % kTileSide, slot / kTileSide));
+    }
+    return order;
+}();
+
 // In place, slots to coefficients and back.
 void block_coefficients_from_receivers(std::span<float, kBlockSize> values);
 void block_receivers_from_coefficients(std::span<float, kBlockSize> values);
+
+// For who puts pixels in their places himself: the receiver of slot s lands at kZOrder[s].
+void z_ordered_receivers_from_coefficients(std::span<const float, kBlockSize> coefficients,
+                                           std::span<float, kBlockSize> receivers);
 
 }  // namespace relume::transport

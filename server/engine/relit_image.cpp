@@ -22,12 +22,11 @@ void write_block(const Scene& scene,
                  std::span<float> rgb) {
     constexpr std::size_t kSumsPerBlock = std::size_t{kColours} * kBlockSize;
     const std::size_t first = block * kSumsPerBlock;
-    std::array<float, kSumsPerBlock> values;
-    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(first), values.size(),
-                values.begin());
+    std::array<std::array<float, kBlockSize>, kColours> values;  // in Z-order
     for (std::size_t c = 0; c < kColours; ++c) {
-        transport::block_receivers_from_coefficients(
-            std::span<float, kBlockSize>(&values[c * kBlockSize], kBlockSize));
+        transport::z_ordered_receivers_from_coefficients(
+            std::span<const float, kBlockSize>(&sums[first + c * kBlockSize], kBlockSize),
+            values[c]);
     }
     const std::span<const float> tint = scene.transport().tint().subspan(first, kSumsPerBlock);
     const transport::TileGrid& image = scene.image();
@@ -38,9 +37,9 @@ void write_block(const Scene& scene,
     for (std::uint32_t y = 0; y < rows; ++y) {
         float* out = &rgb[kColours * (std::size_t{top + y} * image.width + left)];
         for (std::uint32_t x = 0; x < columns; ++x) {
+            const std::size_t slot = y * kTileSide + x;
             for (std::size_t c = 0; c < kColours; ++c) {
-                const std::size_t i = c * kBlockSize + y * kTileSide + x;
-                *out++ = values[i] * tint[i];
+                *out++ = values[c][transport::kZOrder[slot]] * tint[c * kBlockSize + slot];
             }
         }
     }

@@ -2,6 +2,8 @@
 
 #include "server/light/disc_coverage.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace relume::light {
@@ -25,22 +27,52 @@ Background::Background(const LightRig& rig)
     }
 }
 
-Imath::V3f Background::radiance(const Imath::V3f& world_direction, float footprint_sr) const {
-    const Imath::V3f source_direction = world_direction * source_from_world_;
-    Imath::V3f sum(0);
+void Background::radiances(const LookDirections& world_directions,
+                           std::span<const float> footprints_sr,
+                           std::span<Imath::V3f> radiances) const {
+    std::fill(radiances.begin(), radiances.end(), Imath::V3f(0));
+    LookDirections source_directions;
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        const Imath::V3f direction =
+            Imath::V3f(world_directions.x[i], world_directions.y[i], world_directions.z[i]) *
+            source_from_world_;
+        source_directions.x[i] = direction.x;
+        source_directions.y[i] = direction.y;
+        source_directions.z[i] = direction.z;
+    }
     if (environment_) {
-        sum += environment_scale_ *
-               environment_->source().radiance(source_direction, footprint_sr);
+        add_environment(*environment_, environment_scale_, source_directions, footprints_sr,
+                        radiances);
     }
     if (blend_) {
-        sum += blend_scale_ * blend_->source().radiance(source_direction, footprint_sr);
+        add_environment(*blend_, blend_scale_, source_directions, footprints_sr, radiances);
     }
-    if (lights_.empty()) {
-        return sum;
+    for (std::size_t i = 0; !lights_.empty() && i < radiances.size(); ++i) {
+        radiances[i] += lights_seen(
+            {world_directions.x[i], world_directions.y[i], world_directions.z[i]},
+            footprints_sr[i]);
     }
+}
+
+void Background::add_environment(const PrefilteredEnvironment& environment,
+                                 const Imath::V3f& scale,
+                                 const LookDirections& source_directions,
+                                 std::span<const float> footprints_sr,
+                                 std::span<Imath::V3f> radiances) const {
+    std::array<Imath::V3f, kLooksPerRun> seen;
+    const std::span<Imath::V3f> wanted = std::span(seen).first(radiances.size());
+    environment.source().radiances(source_directions, footprints_sr, wanted);
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        radiances[i] += scale * seen[i];
+    }
+}
+
+Imath::V3f Background::lights_seen(const Imath::V3f& world_direction,
+                                   float footprint_sr) const {
     const Imath::V3f direction = world_direction.normalized();
     constexpr float kSharpestEdge = 1e-5F;
     const float edge = std::max(std::sqrt(footprint_sr), kSharpestEdge);
+    Imath::V3f sum(0);
     for (const AreaLight& light : lights_) {
         const DiscCoverage disc(chord_from_angle(light.angular_radius_radians), edge);
         const float coverage = disc.at((direction - light.direction).length());
@@ -54,7 +86,13 @@ Imath::V3f Background::radiance(const Imath::V3f& world_direction, float footpri
 Imath::V3f background_radiance(const LightRig& rig,
                                const Imath::V3f& world_direction,
                                float footprint_sr) {
-    return Background(rig).radiance(world_direction, footprint_sr);
+    LookDirections direction;
+    direction.x[0] = world_direction.x;
+    direction.y[0] = world_direction.y;
+    direction.z[0] = world_direction.z;
+    Imath::V3f radiance;
+    Background(rig).radiances(direction, {&footprint_sr, 1}, {&radiance, 1});
+    return radiance;
 }
 
 }  // namespace relume::light

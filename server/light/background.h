@@ -8,6 +8,7 @@
 #include <Imath/ImathVec.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace relume::light {
@@ -18,13 +19,22 @@ class Background {
   public:
     explicit Background(const LightRig& rig);
 
-    // Mean radiance over a pixel of `footprint_sr` steradians around a world direction (any
-    // non-zero length). Discs of area lights have an antialiased edge one pixel wide and keep
-    // their energy when they are smaller than a pixel.
-    [[nodiscard]] Imath::V3f radiance(const Imath::V3f& world_direction,
-                                      float footprint_sr) const;
+    // Mean radiance over pixels of so many steradians around world directions (any non-zero
+    // length), up to kLooksPerRun of them. Discs of area lights have an antialiased edge one
+    // pixel wide and keep their energy when they are smaller than a pixel.
+    void radiances(const LookDirections& world_directions,
+                   std::span<const float> footprints_sr,
+                   std::span<Imath::V3f> radiances) const;
 
   private:
+    void add_environment(const PrefilteredEnvironment& environment,
+                         const Imath::V3f& scale,
+                         const LookDirections& source_directions,
+                         std::span<const float> footprints_sr,
+                         std::span<Imath::V3f> radiances) const;
+    [[nodiscard]] Imath::V3f lights_seen(const Imath::V3f& world_direction,
+                                         float footprint_sr) const;
+
     std::shared_ptr<const PrefilteredEnvironment> environment_;
     std::shared_ptr<const PrefilteredEnvironment> blend_;
     Imath::V3f environment_scale_;

@@ -4,6 +4,7 @@
 #include "server/light/padded_cubemap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -114,31 +115,79 @@ Imath::V3f lat_long_lookup(const Level& level,
     return sum / static_cast<float>(taps);
 }
 
+// Between which levels of the pyramid a pixel of this size looks.
+struct LevelBlend {
+    std::size_t finer = 0;
+    float coarser_share = 0;
+};
+LevelBlend blend_for(float footprint_side, float finest_texel_side, std::size_t level_count) {
+    const float wanted = std::log2(footprint_side / finest_texel_side);
+    const float level = std::clamp(wanted, 0.0F, static_cast<float>(level_count - 1));
+    const auto finer = static_cast<std::size_t>(level);
+    return {.finer = finer, .coarser_share = level - static_cast<float>(finer)};
+}
+
 }  // namespace
+
+struct EnvironmentMap::LookPoints {
+    LatLongPoints places;
+    std::array<std::uint32_t, kLooksPerRun> faces{};
+};
+
+void EnvironmentMap::find_points(const LookDirections& directions,
+                                 std::size_t count,
+                                 LookPoints& points) const {
+    if (layout_ == Layout::lat_long) {
+        lat_long_points(directions, count, points.places);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const MapPoint point = map_point_from_direction(
+            layout_, {directions.x[i], directions.y[i], directions.z[i]});
+        points.faces[i] = point.face;
+        points.places.x[i] = point.x;
+        points.places.y[i] = point.y;
+    }
+}
+
+void EnvironmentMap::radiances(const LookDirections& source_directions,
+                               std::span<const float> footprints_sr,
+                               std::span<Imath::V3f> radiances) const {
+    LookPoints points;
+    find_points(source_directions, radiances.size(), points);
+    const float texel_side = texel_side_radians(layout_, levels_.front().height);
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        const MapPoint point{
+            .face = points.faces[i], .x = points.places.x[i], .y = points.places.y[i]};
+        if (footprints_sr[i] <= 0) {
+            radiances[i] = bilinear(layout_, levels_.front(), point);
+            continue;
+        }
+        const float footprint_side = std::sqrt(footprints_sr[i]);
+        const LevelBlend blend = blend_for(footprint_side, texel_side, levels_.size());
+        const auto lookup = [&](const Level& at) {
+            return layout_ == Layout::lat_long
+                       ? lat_long_lookup(at, point, points.places.cos_latitude[i],
+                                         footprint_side)
+                       : bilinear(layout_, at, point);
+        };
+        radiances[i] = lookup(levels_[blend.finer]);
+        if (blend.coarser_share > 0) {
+            radiances[i] = radiances[i] * (1 - blend.coarser_share) +
+                           lookup(levels_[blend.finer + 1]) * blend.coarser_share;
+        }
+    }
+}
 
 Imath::V3f EnvironmentMap::radiance(const Imath::V3f& source_direction,
                                     float footprint_sr) const {
-    const MapPoint point = map_point_from_direction(layout_, source_direction);
-    if (footprint_sr <= 0) {
-        return bilinear(layout_, levels_.front(), point);
-    }
-    const float footprint_side = std::sqrt(footprint_sr);
-    const float texel_side = texel_side_radians(layout_, levels_.front().height);
-    const float finest = std::log2(footprint_side / texel_side);
-    const float level = std::clamp(finest, 0.0F, static_cast<float>(levels_.size() - 1));
-    const auto lower = static_cast<std::size_t>(level);
-    const float fraction = level - static_cast<float>(lower);
-    const Imath::V3f& d = source_direction;
-    const float cos_latitude = std::sqrt((d.x * d.x + d.z * d.z) / d.dot(d));
-    const auto lookup = [&](const Level& at) {
-        return layout_ == Layout::lat_long
-                   ? lat_long_lookup(at, point, cos_latitude, footprint_side)
-                   : bilinear(layout_, at, point);
-    };
-    if (fraction == 0) {
-        return lookup(levels_[lower]);
-    }
-    return lookup(levels_[lower]) * (1 - fraction) + lookup(levels_[lower + 1]) * fraction;
+    LookDirections direction;
+    direction.x[0] = source_direction.x;
+    direction.y[0] = source_direction.y;
+    direction.z[0] = source_direction.z;
+    Imath::V3f result;
+    radiances(direction, {&footprint_sr, 1}, {&result, 1});
+    return result;
 }
 
 }  // namespace relume::light

@@ -1,6 +1,7 @@
 // An environment: radiance from every direction, at the full resolution of its source.
 #pragma once
 
+#include "server/light/lat_long_kernel.h"
 #include "server/light/projection.h"
 
 #include <Imath/ImathVec.h>
@@ -56,11 +57,21 @@ class EnvironmentMap {
     [[nodiscard]] Imath::V3f radiance(const Imath::V3f& source_direction,
                                       float footprint_sr = 0) const;
 
+    // The same for up to kLooksPerRun directions; as many footprints and results.
+    void radiances(const LookDirections& source_directions,
+                   std::span<const float> footprints_sr,
+                   std::span<Imath::V3f> radiances) const;
+
     // ∫ radiance dω over the sphere, texel by texel (watts per m² and π of a point, if you
     // like: 4π for a constant map of 1). For exposure and for tests of energy.
     [[nodiscard]] Imath::V3d total_energy() const;
 
   private:
+    struct LookPoints;
+    void find_points(const LookDirections& directions,
+                     std::size_t count,
+                     LookPoints& points) const;
+
     std::uint32_t width_;
     std::uint32_t height_;
     Projection projection_;

@@ -123,18 +123,95 @@ void locate(const ResampleJob& job, const RotatedFace& face, float v, SampleLine
     }
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> bilinear(
-    D d4, const float* texel, std::size_t below, float fx, float fy) {
-    const auto x = hn::Set(d4, fx);
-    const auto y = hn::Set(d4, fy);
-    const auto a = hn::LoadU(d4, texel);
-    const auto b = hn::LoadU(d4, texel + 3);
-    const auto c = hn::LoadU(d4, texel + below);
-    const auto e = hn::LoadU(d4, texel + below + 3);
+// Colours of a texel, and a fourth value that is not used; of two samples side by side where
+// vectors are that long.
+using Texels = hn::CappedTag<float, 8>;
+inline constexpr std::size_t kTexelFloats = 4;
+
+#if HWY_TARGET == HWY_SCALAR
+inline constexpr bool kTwoSideBySide = false;
+#else
+inline constexpr bool kTwoSideBySide = hn::MaxLanes(Texels()) == 2 * kTexelFloats;
+
+HWY_INLINE hn::Vec<Texels> side_by_side(hn::Vec<hn::Half<Texels>> first,
+                                        hn::Vec<hn::Half<Texels>> second) {
+    return hn::Combine(Texels(), second, first);
+}
+
+HWY_INLINE void store_sum_of_both(hn::Vec<Texels> both, float* HWY_RESTRICT rgb) {
+    const hn::Half<Texels> d4;
+    hn::Store(hn::Add(hn::LowerHalf(d4, both), hn::UpperHalf(d4, both)), d4, rgb);
+}
+#endif
+
+// One value for each of the samples at hand, as often as it has colours.
+HWY_INLINE hn::Vec<Texels> for_samples(const float* values) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kTwoSideBySide) {
+        const hn::Half<Texels> d4;
+        return side_by_side(hn::Set(d4, values[0]), hn::Set(d4, values[1]));
+    }
+#endif
+    return hn::Set(Texels(), values[0]);
+}
+
+HWY_INLINE hn::Vec<Texels> load_texels(const float* texels, const std::int32_t* offsets) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kTwoSideBySide) {
+        const hn::Half<Texels> d4;
+        return side_by_side(hn::LoadU(d4, texels + offsets[0]),
+                            hn::LoadU(d4, texels + offsets[1]));
+    }
+#endif
+    return hn::LoadU(Texels(), texels + offsets[0]);
+}
+
+// Of the samples from s on.
+HWY_INLINE hn::Vec<Texels> bilinear(const float* texels,
+                                    std::size_t below,
+                                    const SampleLine& line,
+                                    std::size_t s) {
+    const auto x = for_samples(&line.x_fraction[s]);
+    const auto y = for_samples(&line.y_fraction[s]);
+    const auto a = load_texels(texels, &line.offset[s]);
+    const auto b = load_texels(texels + 3, &line.offset[s]);
+    const auto c = load_texels(texels + below, &line.offset[s]);
+    const auto e = load_texels(texels + below + 3, &line.offset[s]);
     const auto upper = hn::Add(a, hn::Mul(hn::Sub(b, a), x));
     const auto lower = hn::Add(c, hn::Mul(hn::Sub(e, c), x));
     return hn::Add(upper, hn::Mul(hn::Sub(lower, upper), y));
+}
+
+// The mean of a texel's samples: those of even number and those of odd number are added up
+// apart and then together, whether or not they are side by side.
+HWY_INLINE void mean_of_samples(const float* texels,
+                                std::size_t below,
+                                const SampleLine (&lines)[kSamplesPerSide],
+                                const SampleWeights& weights,
+                                std::size_t column,
+                                float* HWY_RESTRICT rgb) {
+    auto even = hn::Zero(Texels());  // and odd beside it, where both fit
+    auto odd = even;
+    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
+        for (std::uint32_t k = 0; k < kSamplesPerSide; k += 2) {
+            const auto weighted = [&](std::size_t sample) HWY_ATTR {
+                return hn::Mul(bilinear(texels, below, lines[line], sample),
+                               for_samples(&weights.weight[line][sample]));
+            };
+            const std::size_t s = column * kSamplesPerSide + k;
+            even = hn::Add(even, weighted(s));
+            if constexpr (!kTwoSideBySide) {
+                odd = hn::Add(odd, weighted(s + 1));
+            }
+        }
+    }
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kTwoSideBySide) {
+        store_sum_of_both(even, rgb);
+        return;
+    }
+#endif
+    hn::Store(hn::Add(even, odd), Texels(), rgb);
 }
 
 void resample_face_row(const ResampleJob& job,
@@ -146,26 +223,13 @@ void resample_face_row(const ResampleJob& job,
     for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
         locate(job, job.faces[face], coordinate(row * kSamplesPerSide + line, n), lines[line]);
     }
-    // Three colours and a fourth value that is not used, at once where vectors are long enough.
-    const hn::CappedTag<float, 4> d4;
     const std::size_t below = (std::size_t{job.inner_resolution} + 2) * 3;
     const std::size_t plane = basis::texel_count(n);
     float* out = job.out + (std::size_t{face} * n + row) * n;
     for (std::uint32_t column = 0; column < n; ++column) {
-        alignas(16) float rgb[4];
-        for (std::size_t first = 0; first < 4; first += hn::Lanes(d4)) {
-            const float* texels = job.texels + first;
-            auto sum = hn::Zero(d4);
-            for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-                for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
-                    const std::uint32_t s = column * kSamplesPerSide + k;
-                    const auto value =
-                        bilinear(d4, texels + lines[line].offset[s], below,
-                                 lines[line].x_fraction[s], lines[line].y_fraction[s]);
-                    sum = hn::Add(sum, hn::Mul(value, hn::Set(d4, weights.weight[line][s])));
-                }
-            }
-            hn::Store(sum, d4, rgb + first);
+        alignas(16) float rgb[kTexelFloats];
+        for (std::size_t first = 0; first < kTexelFloats; first += hn::Lanes(Texels())) {
+            mean_of_samples(job.texels + first, below, lines, weights, column, rgb + first);
         }
         for (std::size_t c = 0; c < 3; ++c) {
             const float value = rgb[c] * job.scale[static_cast<int>(c)];

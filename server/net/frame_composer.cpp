@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace relume::net {
@@ -20,6 +22,24 @@ void for_ranges(std::size_t count, const Body& body) {
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           body(range.begin(), range.end());
                       });
+}
+
+// What the environment shows in up to kLooksPerRun pixels.
+void look(const light::Background& background,
+          std::span<const SkyPixel> pixels,
+          std::span<Imath::V3f> radiances) {
+    light::LookDirections directions;
+    std::array<float, light::kLooksPerRun> footprints_sr;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        directions.x[i] = pixels[i].direction.x;
+        directions.y[i] = pixels[i].direction.y;
+        directions.z[i] = pixels[i].direction.z;
+        footprints_sr[i] = pixels[i].footprint_sr;
+    }
+    background.radiances(directions, std::span(footprints_sr).first(pixels.size()), radiances);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        radiances[i] *= pixels[i].visible;
+    }
 }
 
 }  // namespace
@@ -44,10 +64,10 @@ void FrameComposer::set_background(const wire::Background& background,
     }
     const light::Background lookup(rig);
     for_ranges(pixels.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SkyPixel& pixel = pixels[i];
-            background_[i] =
-                lookup.radiance(pixel.direction, pixel.footprint_sr) * pixel.visible;
+        for (; begin < end; begin += light::kLooksPerRun) {
+            const std::size_t count = std::min(light::kLooksPerRun, end - begin);
+            look(lookup, pixels.subspan(begin, count),
+                 std::span(background_).subspan(begin, count));
         }
     });
 }

@@ -1,0 +1,63 @@
+#include "server/light/lat_long_kernel.h"
+
+#include <numbers>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/light/lat_long_kernel.cpp"
+#include <hwy/foreach_target.h>
+// Must come after foreach_target.h.
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace relume::light::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The angle of the point (x, y), x ≥ 0 or not; 0 for (0, 0).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V angle(D d, V y, V x) {
+    const auto zero = hn::Zero(d);
+    const auto half_turn = hn::CopySign(hn::Set(d, std::numbers::pi_v<float>), y);
+    const auto acute = hn::Atan(d, hn::Div(y, x));
+    const auto turned = hn::IfThenElse(hn::Lt(x, zero), hn::Add(acute, half_turn), acute);
+    return hn::IfThenZeroElse(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), turned);
+}
+
+void lat_long_points_loop(const LookDirections& directions,
+                          std::size_t count,
+                          LatLongPoints& points) {
+    const hn::ScalableTag<float> d;
+    const auto half = hn::Set(d, 0.5F);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto x = hn::Load(d, &directions.x[i]);
+        const auto y = hn::Load(d, &directions.y[i]);
+        const auto z = hn::Load(d, &directions.z[i]);
+        const auto squared = hn::Add(hn::Mul(x, x), hn::Mul(z, z));
+        const auto horizontal = hn::Sqrt(squared);
+        const auto longitude = angle(d, x, hn::Neg(z));
+        const auto latitude = angle(d, y, horizontal);
+        const auto turns = hn::Set(d, std::numbers::inv_pi_v<float>);
+        hn::Store(hn::Add(hn::Mul(longitude, hn::Mul(half, turns)), half), d, &points.x[i]);
+        hn::Store(hn::Sub(half, hn::Mul(latitude, turns)), d, &points.y[i]);
+        hn::Store(hn::Div(horizontal, hn::Sqrt(hn::Add(squared, hn::Mul(y, y)))), d,
+                  &points.cos_latitude[i]);
+    }
+}
+
+}  // namespace relume::light::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace relume::light {
+
+HWY_EXPORT(lat_long_points_loop);
+
+void lat_long_points(const LookDirections& directions,
+                     std::size_t count,
+                     LatLongPoints& points) {
+    HWY_DYNAMIC_DISPATCH(lat_long_points_loop)(directions, count, points);
+}
+
+}  // namespace relume::light
+#endif  // HWY_ONCE

@@ -1,0 +1,31 @@
+// Where directions fall in a lat-long map, many at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace relume::light {
+
+// Directions that are looked along at once.
+inline constexpr std::size_t kLooksPerRun = 64;
+using LookNumbers = std::array<float, kLooksPerRun>;
+
+struct alignas(64) LookDirections {
+    LookNumbers x{};
+    LookNumbers y{};
+    LookNumbers z{};
+};
+
+struct alignas(64) LatLongPoints {
+    LookNumbers x;  // as MapPoint
+    LookNumbers y;
+    LookNumbers cos_latitude;
+};
+
+// What map_point_from_direction gives, to a few units in the last place, for the first `count`
+// directions, of any non-zero length.
+void lat_long_points(const LookDirections& directions,
+                     std::size_t count,
+                     LatLongPoints& points);
+
+}  // namespace relume::light
