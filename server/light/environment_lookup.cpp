@@ -120,9 +120,8 @@ struct LevelBlend {
     std::size_t finer = 0;
     float coarser_share = 0;
 };
-LevelBlend blend_for(float footprint_side, float finest_texel_side, std::size_t level_count) {
-    const float wanted = std::log2(footprint_side / finest_texel_side);
-    const float level = std::clamp(wanted, 0.0F, static_cast<float>(level_count - 1));
+LevelBlend blend_for(float wanted_level, std::size_t level_count) {
+    const float level = std::clamp(wanted_level, 0.0F, static_cast<float>(level_count - 1));
     const auto finer = static_cast<std::size_t>(level);
     return {.finer = finer, .coarser_share = level - static_cast<float>(finer)};
 }
@@ -155,7 +154,9 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
                                std::span<Imath::V3f> radiances) const {
     LookPoints points;
     find_points(source_directions, radiances.size(), points);
-    const float texel_side = texel_side_radians(layout_, levels_.front().height);
+    LookNumbers levels;
+    footprint_levels(footprints_sr, texel_side_radians(layout_, levels_.front().height),
+                     levels);
     for (std::size_t i = 0; i < radiances.size(); ++i) {
         const MapPoint point{
             .face = points.faces[i], .x = points.places.x[i], .y = points.places.y[i]};
@@ -164,7 +165,7 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
             continue;
         }
         const float footprint_side = std::sqrt(footprints_sr[i]);
-        const LevelBlend blend = blend_for(footprint_side, texel_side, levels_.size());
+        const LevelBlend blend = blend_for(levels[i], levels_.size());
         const auto lookup = [&](const Level& at) {
             return layout_ == Layout::lat_long
                        ? lat_long_lookup(at, point, points.places.cos_latitude[i],

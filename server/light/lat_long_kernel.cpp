@@ -1,5 +1,6 @@
 #include "server/light/lat_long_kernel.h"
 
+#include <algorithm>
 #include <numbers>
 
 #undef HWY_TARGET_INCLUDE
@@ -45,6 +46,18 @@ void lat_long_points_loop(const LookDirections& directions,
     }
 }
 
+void footprint_levels_loop(const float* HWY_RESTRICT footprints_sr,
+                           float side_radians,
+                           std::size_t count,
+                           float* HWY_RESTRICT levels) {
+    const hn::ScalableTag<float> d;
+    const auto one_over_side = hn::Set(d, 1 / (side_radians * side_radians));
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto texels = hn::Mul(hn::Load(d, footprints_sr + i), one_over_side);
+        hn::Store(hn::Mul(hn::Set(d, 0.5F), hn::Log2(d, texels)), d, levels + i);
+    }
+}
+
 }  // namespace relume::light::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -52,11 +65,23 @@ HWY_AFTER_NAMESPACE();
 namespace relume::light {
 
 HWY_EXPORT(lat_long_points_loop);
+HWY_EXPORT(footprint_levels_loop);
 
 void lat_long_points(const LookDirections& directions,
                      std::size_t count,
                      LatLongPoints& points) {
     HWY_DYNAMIC_DISPATCH(lat_long_points_loop)(directions, count, points);
+}
+
+void footprint_levels(std::span<const float> footprints_sr,
+                      float side_radians,
+                      LookNumbers& levels) {
+    alignas(64) LookNumbers footprints{};
+    std::copy(footprints_sr.begin(), footprints_sr.end(), footprints.begin());
+    alignas(64) LookNumbers all;
+    HWY_DYNAMIC_DISPATCH(footprint_levels_loop)
+    (footprints.data(), side_radians, footprints_sr.size(), all.data());
+    levels = all;
 }
 
 }  // namespace relume::light

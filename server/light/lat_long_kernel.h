@@ -1,8 +1,10 @@
-// Where directions fall in a lat-long map, many at once.
+// What lookups in an environment cost most, many at once: where directions fall in a lat-long
+// map, and how coarse a pixel sees it.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace relume::light {
 
@@ -27,5 +29,11 @@ struct alignas(64) LatLongPoints {
 void lat_long_points(const LookDirections& directions,
                      std::size_t count,
                      LatLongPoints& points);
+
+// log2 of the footprints' sides over a side, of as many as there are footprints, up to
+// kLooksPerRun; anything where a footprint is not positive.
+void footprint_levels(std::span<const float> footprints_sr,
+                      float side_radians,
+                      LookNumbers& levels);
 
 }  // namespace relume::light

@@ -14,8 +14,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace resample_row_detail {
 
-constexpr std::uint32_t kSamplesPerSide = 4;
-constexpr std::uint32_t kMaxSamples = basis::kMaxFaceResolution * kSamplesPerSide;
+// A texel's samples form a quincunx: lines of two, every other line shifted by half the distance
+// between its samples.
+constexpr std::uint32_t kLines = 4;
+constexpr std::uint32_t kSamplesPerLine = 2;
+constexpr std::uint32_t kMaxSamples = basis::kMaxFaceResolution * kSamplesPerLine;
+
+// Where a line's first sample stands, as a part of the distance between samples.
+constexpr float first_sample(std::uint32_t line) {
+    return line % 2 == 0 ? 0.25F : 0.75F;
+}
 
 // One line of samples: where each falls into the padded cubemap, how far between its texels.
 struct alignas(64) SampleLine {
@@ -26,24 +34,25 @@ struct alignas(64) SampleLine {
 
 // What each sample of a row of texels contributes to its texel; the same for all six faces.
 struct alignas(64) SampleWeights {
-    float weight[kSamplesPerSide][kMaxSamples];
+    float weight[kLines][kMaxSamples];
 };
 
-float coordinate(std::uint32_t sample, std::uint32_t n) {
-    const float count = static_cast<float>(n * kSamplesPerSide);
-    return (static_cast<float>(sample) + 0.5F) * 2 / count - 1;
+// v of a line of samples, counted from the face's first.
+float line_coordinate(std::uint32_t line, std::uint32_t n) {
+    const float count = static_cast<float>(n * kLines);
+    return (static_cast<float>(line) + 0.5F) * 2 / count - 1;
 }
 
 void make_weights(std::uint32_t n, std::uint32_t row, SampleWeights& weights) {
     const hn::ScalableTag<float> d;
-    const std::uint32_t samples = n * kSamplesPerSide;
+    const std::uint32_t samples = n * kSamplesPerLine;
     const auto step = hn::Set(d, 2 / static_cast<float>(samples));
     const auto one = hn::Set(d, 1.0F);
-    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-        const float v = coordinate(row * kSamplesPerSide + line, n);
+    for (std::uint32_t line = 0; line < kLines; ++line) {
+        const float v = line_coordinate(row * kLines + line, n);
         const auto base = hn::Set(d, 1 + v * v);
         for (std::uint32_t s = 0; s < samples; s += static_cast<std::uint32_t>(hn::Lanes(d))) {
-            const auto index = hn::Iota(d, static_cast<float>(s) + 0.5F);
+            const auto index = hn::Iota(d, static_cast<float>(s) + first_sample(line));
             const auto u = hn::Sub(hn::Mul(index, step), one);
             const auto length_sq = hn::Add(base, hn::Mul(u, u));
             hn::Store(hn::Div(one, hn::Mul(length_sq, hn::Sqrt(length_sq))), d,
@@ -52,15 +61,15 @@ void make_weights(std::uint32_t n, std::uint32_t row, SampleWeights& weights) {
     }
     for (std::uint32_t column = 0; column < n; ++column) {
         float sum = 0;
-        for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-            for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
-                sum += weights.weight[line][column * kSamplesPerSide + k];
+        for (std::uint32_t line = 0; line < kLines; ++line) {
+            for (std::uint32_t k = 0; k < kSamplesPerLine; ++k) {
+                sum += weights.weight[line][column * kSamplesPerLine + k];
             }
         }
         const float scale = 1 / sum;
-        for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-            for (std::uint32_t k = 0; k < kSamplesPerSide; ++k) {
-                weights.weight[line][column * kSamplesPerSide + k] *= scale;
+        for (std::uint32_t line = 0; line < kLines; ++line) {
+            for (std::uint32_t k = 0; k < kSamplesPerLine; ++k) {
+                weights.weight[line][column * kSamplesPerLine + k] *= scale;
             }
         }
     }
@@ -68,11 +77,16 @@ void make_weights(std::uint32_t n, std::uint32_t row, SampleWeights& weights) {
 
 // Rotates a line of sample directions and finds the face and place each pierces, in the
 // conventions of basis::face_point_from_direction.
-void locate(const ResampleJob& job, const RotatedFace& face, float v, SampleLine& line) {
+void locate(const ResampleJob& job,
+            const RotatedFace& face,
+            std::uint32_t row_of_samples,
+            SampleLine& line) {
+    const float v = line_coordinate(row_of_samples, job.face_resolution);
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
-    const std::uint32_t samples = job.face_resolution * kSamplesPerSide;
+    const std::uint32_t samples = job.face_resolution * kSamplesPerLine;
     const Imath::V3f start = face.normal + v * face.v_axis;
+    const float first = first_sample(row_of_samples);
     const auto step = hn::Set(d, 2 / static_cast<float>(samples));
     const auto zero = hn::Zero(d);
     const auto one = hn::Set(d, 1.0F);
@@ -82,7 +96,7 @@ void locate(const ResampleJob& job, const RotatedFace& face, float v, SampleLine
     const auto side = hn::Set(di, static_cast<std::int32_t>(job.inner_resolution) + 2);
 
     for (std::uint32_t s = 0; s < samples; s += static_cast<std::uint32_t>(hn::Lanes(d))) {
-        const auto u = hn::Sub(hn::Mul(hn::Iota(d, static_cast<float>(s) + 0.5F), step), one);
+        const auto u = hn::Sub(hn::Mul(hn::Iota(d, static_cast<float>(s) + first), step), one);
         const auto x = hn::Add(hn::Set(d, start.x), hn::Mul(u, hn::Set(d, face.u_axis.x)));
         const auto y = hn::Add(hn::Set(d, start.y), hn::Mul(u, hn::Set(d, face.u_axis.y)));
         const auto z = hn::Add(hn::Set(d, start.z), hn::Mul(u, hn::Set(d, face.u_axis.z)));
@@ -186,19 +200,19 @@ HWY_INLINE hn::Vec<Texels> bilinear(const float* texels,
 // apart and then together, whether or not they are side by side.
 HWY_INLINE void mean_of_samples(const float* texels,
                                 std::size_t below,
-                                const SampleLine (&lines)[kSamplesPerSide],
+                                const SampleLine (&lines)[kLines],
                                 const SampleWeights& weights,
                                 std::size_t column,
                                 float* HWY_RESTRICT rgb) {
     auto even = hn::Zero(Texels());  // and odd beside it, where both fit
     auto odd = even;
-    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-        for (std::uint32_t k = 0; k < kSamplesPerSide; k += 2) {
+    for (std::uint32_t line = 0; line < kLines; ++line) {
+        for (std::uint32_t k = 0; k < kSamplesPerLine; k += 2) {
             const auto weighted = [&](std::size_t sample) HWY_ATTR {
                 return hn::Mul(bilinear(texels, below, lines[line], sample),
                                for_samples(&weights.weight[line][sample]));
             };
-            const std::size_t s = column * kSamplesPerSide + k;
+            const std::size_t s = column * kSamplesPerLine + k;
             even = hn::Add(even, weighted(s));
             if constexpr (!kTwoSideBySide) {
                 odd = hn::Add(odd, weighted(s + 1));
@@ -219,9 +233,9 @@ void resample_face_row(const ResampleJob& job,
                        std::uint32_t row,
                        const SampleWeights& weights) {
     const std::uint32_t n = job.face_resolution;
-    SampleLine lines[kSamplesPerSide];
-    for (std::uint32_t line = 0; line < kSamplesPerSide; ++line) {
-        locate(job, job.faces[face], coordinate(row * kSamplesPerSide + line, n), lines[line]);
+    SampleLine lines[kLines];
+    for (std::uint32_t line = 0; line < kLines; ++line) {
+        locate(job, job.faces[face], row * kLines + line, lines[line]);
     }
     const std::size_t below = (std::size_t{job.inner_resolution} + 2) * 3;
     const std::size_t plane = basis::texel_count(n);

@@ -28,7 +28,7 @@ struct ResampleJob {
     float* out;  // 3 planes of 6·n²
 };
 
-// Writes one row of all six faces: each texel is the mean of 4×4 bilinear samples, weighted by
+// Writes one row of all six faces: each texel is the mean of eight bilinear samples, weighted by
 // the solid angle each stands for. The same bits on every machine.
 void resample_row(const ResampleJob& job, std::uint32_t row);
 

@@ -25,31 +25,31 @@ float threshold_of(std::size_t code, const wire::Display& display) {
 }  // namespace
 
 DisplayTable::DisplayTable(const wire::Display& display) {
-    thresholds_[0] = 0;
+    constexpr std::uint32_t kBinSize = DisplayBins::kLowerBits + 1;
+    std::array<std::uint32_t, 257> thresholds{};  // bits of the least value with this code
     for (std::size_t code = 1; code < 256; ++code) {
-        thresholds_[code] = threshold_of(code, display);
+        thresholds[code] = std::bit_cast<std::uint32_t>(threshold_of(code, display));
     }
-    thresholds_[256] = std::numeric_limits<float>::quiet_NaN();  // nothing reaches it
+    thresholds[256] = ~std::uint32_t{0};  // nothing reaches it
     // The table begins below the first threshold, where the code is 0, and ends far above the
     // last one, whatever the exposure.
-    first_bin_ = std::bit_cast<std::uint32_t>(thresholds_[1]) >> DisplayTables::kBinShift;
+    first_bin_ = thresholds[1] >> DisplayBins::kBinShift;
     first_bin_ = first_bin_ == 0 ? 0 : first_bin_ - 1;
-    std::size_t code = 0;
-    for (std::size_t bin = 0; bin < kBins; ++bin) {
-        const float lower_end = std::bit_cast<float>(
-            static_cast<std::uint32_t>((first_bin_ + bin) << DisplayTables::kBinShift));
-        while (code < 255 && lower_end >= thresholds_[code + 1]) {
+    std::uint32_t code = 0;
+    for (std::uint32_t bin = 0; bin < DisplayBins::kBins; ++bin) {
+        const std::uint32_t lower_end = (first_bin_ + bin) << DisplayBins::kBinShift;
+        while (lower_end >= thresholds[code + 1]) {
             ++code;
         }
-        codes_[bin] = static_cast<std::uint8_t>(code);
+        const std::uint32_t next = std::min(thresholds[code + 1] - lower_end, kBinSize);
+        entries_[bin] = (code << DisplayBins::kBinShift) + kBinSize - next;
     }
 }
 
 void DisplayTable::codes(std::span<const float> linear, std::span<std::uint8_t> codes) const {
-    const DisplayTables tables{
-        .first_bin = first_bin_, .thresholds = thresholds_.data(), .codes = codes_.data()};
     const std::size_t done =
-        write_vectors_of_codes(tables, linear.data(), linear.size(), codes.data());
+        write_vectors_of_codes({.first_bin = first_bin_, .entries = entries_.data()},
+                               linear.data(), linear.size(), codes.data());
     std::transform(linear.begin() + static_cast<std::ptrdiff_t>(done), linear.end(),
                    codes.begin() + static_cast<std::ptrdiff_t>(done),
                    [this](float value) { return code(value); });

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -58,6 +59,20 @@ TEST(LatLongPoints, AreThoseOfTheFormula) {
             EXPECT_NEAR(points.cos_latitude[i],
                         std::sqrt((d.x * d.x + d.z * d.z) / d.dot(d)), 1e-6F)
                 << d;
+        }
+    }
+}
+
+TEST(FootprintLevels, AreTheLogarithmsOfTheSides) {
+    for (std::size_t count = 1; count <= kLooksPerRun; ++count) {
+        std::vector<float> footprints;
+        for (std::size_t i = 0; i < count; ++i) {
+            footprints.push_back(std::exp2(-static_cast<float>(i) / 3));
+        }
+        LookNumbers levels;
+        footprint_levels(footprints, 0.25F, levels);
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_NEAR(levels[i], 2 - static_cast<float>(i) / 6, 1e-5F);
         }
     }
 }
