@@ -21,15 +21,15 @@ void add_colour(const Sketch& sketch,
                 const AmountOf& amount_of,
                 std::span<Float> sums) {
     thread_local std::vector<WeightedRow> rows;
-    rows.clear();
+    rows.resize(std::max(rows.size(), count));
+    std::size_t lit = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t column = column_at(i);
         const float weight = amount_of(i) * sketch.scale(column, colour);
-        if (weight != 0) {
-            rows.push_back({.first = sketch.first_value(column, colour), .weight = weight});
-        }
+        rows[lit] = {.first = sketch.first_value(column, colour), .weight = weight};
+        lit += weight != 0 ? 1 : 0;
     }
-    add_rows(sketch.table(), rows, sums);
+    add_rows(sketch.table(), std::span(rows).first(lit), sums);
 }
 
 template <typename Float>

@@ -67,6 +67,19 @@ Imath::V3f texel_at(Layout layout, const Level& level, std::uint32_t face, int x
     return stored_texel(level, face, x, y);
 }
 
+// Between two texels a row and two rows; `texel` is the upper left one of four that lie inside.
+Imath::V3f mix_inside(const float* texel, std::size_t row_floats, float fx, float fy) {
+    // The fourth number is the next texel's and not used: four at a time are a vector.
+    std::array<float, 4> mixed;
+    for (std::size_t c = 0; c < mixed.size(); ++c) {
+        const float* lower = texel + row_floats;
+        const float along_upper = texel[c] * (1 - fx) + texel[c + 3] * fx;
+        const float along_lower = lower[c] * (1 - fx) + lower[c + 3] * fx;
+        mixed[c] = along_upper * (1 - fy) + along_lower * fy;
+    }
+    return {mixed[0], mixed[1], mixed[2]};
+}
+
 Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     const float x = point.x * static_cast<float>(level.width) - 0.5F;
     const float y = point.y * static_cast<float>(level.height) - 0.5F;
@@ -76,18 +89,21 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     const float fy = y - top;
     const int ix = static_cast<int>(left);
     const int iy = static_cast<int>(top);
-    const auto mix = [&](const auto& texel) {
-        const Imath::V3f upper = texel(0, 0) * (1 - fx) + texel(1, 0) * fx;
-        const Imath::V3f lower = texel(0, 1) * (1 - fx) + texel(1, 1) * fx;
-        return upper * (1 - fy) + lower * fy;
-    };
-    if (ix >= 0 && iy >= 0 && ix + 1 < static_cast<int>(level.width) &&
+    // One texel more than is needed to the right, for the fourth number.
+    if (ix >= 0 && iy >= 0 && ix + 2 < static_cast<int>(level.width) &&
         iy + 1 < static_cast<int>(level.height)) {
-        return mix(
-            [&](int dx, int dy) { return stored_texel(level, point.face, ix + dx, iy + dy); });
+        const std::size_t row_floats = std::size_t{3} * level.width;
+        const std::size_t row =
+            std::size_t{point.face} * level.height + static_cast<std::size_t>(iy);
+        return mix_inside(&level.rgb[row * row_floats + 3 * static_cast<std::size_t>(ix)],
+                          row_floats, fx, fy);
     }
-    return mix(
-        [&](int dx, int dy) { return texel_at(layout, level, point.face, ix + dx, iy + dy); });
+    const auto texel = [&](int dx, int dy) {
+        return texel_at(layout, level, point.face, ix + dx, iy + dy);
+    };
+    const Imath::V3f upper = texel(0, 0) * (1 - fx) + texel(1, 0) * fx;
+    const Imath::V3f lower = texel(0, 1) * (1 - fx) + texel(1, 1) * fx;
+    return upper * (1 - fy) + lower * fy;
 }
 
 // Towards the poles the texels of a lat-long map become narrow, and one pixel spans many of

@@ -126,6 +126,7 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
     revision_ = change.revision;
     settled_frame_.reset();
     last_edit_ = read_at;
+    rhythm_.edit_came(read_at);
     if (!untaken_edit_) {
         untaken_edit_ = read_at;
     }
@@ -227,8 +228,8 @@ void Room::perform(std::span<Turn> turns) {
     });
     std::vector<Relighter*> relighters;
     for (Turn& turn : turns) {
-        Relighter* const next =
-            turn.failure.empty() ? turn.room->images_.next_to_relight() : nullptr;
+        const bool has_work = turn.failure.empty() && !turn.slice.only_picture_is_missing;
+        Relighter* const next = has_work ? turn.room->images_.next_to_relight() : nullptr;
         if (next != nullptr) {
             relighters.push_back(next);
         }
@@ -261,6 +262,7 @@ std::optional<RoomSlice> Room::begin_slice() {
     }
     running_ = true;
     RoomSlice slice;
+    slice.begun_at = Clock::now();
     slice.revision = revision_;
     slice.state_changed = relit_revision_ != revision_;
     if (slice.state_changed) {
@@ -273,6 +275,9 @@ std::optional<RoomSlice> Room::begin_slice() {
     }
     untaken_edit_.reset();
     slice.first_image_due = unshown_edit_.has_value();
+    slice.only_picture_is_missing =
+        slice.first_image_due && !slice.state_changed && !encoding_ &&
+        viewer_wants_moving_locked();
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
@@ -284,14 +289,19 @@ std::optional<RoomSlice> Room::begin_slice() {
 void Room::look_who_is_ready(RoomSlice& slice) const {
     const std::lock_guard lock(mutex_);
     slice.encoder_is_free = !encoding_;
-    slice.viewer_wants_moving =
-        std::any_of(viewers_.begin(), viewers_.end(),
-                    [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
+    slice.viewer_wants_moving = viewer_wants_moving_locked();
+}
+
+bool Room::viewer_wants_moving_locked() const {
+    return std::any_of(viewers_.begin(), viewers_.end(), [](const SharedOutbox& viewer) {
+        return viewer->wants_moving_image();
+    });
 }
 
 void Room::end_slice(const RoomSlice& slice, SliceResult result) {
     const std::lock_guard lock(mutex_);
     running_ = false;
+    slice_took_ = Clock::now() - slice.begun_at;
     at_rest_ = result.at_rest;
     for (const wire::ErrorMessage& problem : result.problems) {
         metrics_.count_error(problem.code);
@@ -357,7 +367,9 @@ void Room::queue_next_slice_locked() {
         threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
                                  untaken_edit_.value_or(Clock::now()));
     } else if (!at_rest_) {
-        threads_.workers.enqueue(shared_from_this(), WorkPriority::refinement);
+        const Clock::time_point now = Clock::now();
+        threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
+                                       rhythm_.time_for(slice_took_, now) - now);
     } else if (!settled_frame_ && !encoding_) {
         threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
                                        last_edit_ + options_.settle_delay - Clock::now());

@@ -5,6 +5,7 @@
 #include "protocol/wire/messages.h"
 #include "protocol/wire/session_state.h"
 #include "server/net/clock.h"
+#include "server/net/edit_rhythm.h"
 #include "server/net/environment_library.h"
 #include "server/net/frame_encoder.h"
 #include "server/net/metrics.h"
@@ -96,6 +97,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     [[nodiscard]] std::optional<RoomSlice> begin_slice();
     static void perform(std::span<Turn> turns);
     void look_who_is_ready(RoomSlice& slice) const;
+    [[nodiscard]] bool viewer_wants_moving_locked() const;
     void end_slice(const RoomSlice& slice, SliceResult result);
     void encode(const Picture& picture) noexcept;
     void deliver(const SharedImageFrame& frame);
@@ -131,7 +133,9 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     Clock::time_point answered_edit_;
     Clock::time_point last_edit_;
     SharedImageFrame settled_frame_;  // of the present revision only
-    double encode_ms_ = 0;            // of a JPEG, a running mean
+    EditRhythm rhythm_;
+    Clock::duration slice_took_{};  // the last one
+    double encode_ms_ = 0;          // of a JPEG, a running mean
 
     RoomImages images_;     // of the worker that runs the slice; `running_` keeps it alone
     FrameEncoder encoder_;  // of the encoder thread; `encoding_` keeps it alone

@@ -19,9 +19,12 @@ struct RoomSlice {
     wire::SessionState state;  // set if it changed
     NamedEnvironments environments;
     std::uint64_t revision = 0;
+    Clock::time_point begun_at;
     Clock::time_point edit_read_at;
     Clock::time_point settle_at;
     bool first_image_due = false;  // of an edit
+    // An edit has been relit when the encoder was busy or no viewer ready, and now both are.
+    bool only_picture_is_missing = false;
     bool settled_image_due = false;
     // As it is when the picture is due, not when the slice begins:
     bool encoder_is_free = false;

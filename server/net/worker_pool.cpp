@@ -5,7 +5,7 @@
 
 namespace relume::net {
 
-WorkerPool::WorkerPool(std::size_t threads, std::size_t largest_company)
+WorkerPool::WorkerPool(std::size_t threads, LargestCompany largest_company)
     : largest_company_(largest_company) {
     threads_.reserve(threads);
     for (std::size_t i = 0; i < threads; ++i) {
@@ -96,9 +96,12 @@ std::vector<std::shared_ptr<WorkItem>> WorkerPool::next_locked() {
     }
     const WorkPriority priority = queue_.front().priority;
     const void* const company = queue_.front().item->company();
+    const std::size_t largest = priority == WorkPriority::edit
+                                    ? largest_company_.edits
+                                    : largest_company_.refinements;
     std::erase_if(queue_, [&](Waiting& waiting) {
         const bool taken = next.empty() ||
-                           (next.size() < largest_company_ && company != nullptr &&
+                           (next.size() < largest && company != nullptr &&
                             waiting.priority == priority && waiting.item->company() == company);
         if (taken) {
             next.push_back(std::move(waiting.item));

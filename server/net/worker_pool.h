@@ -40,8 +40,13 @@ class WorkerPool {
     // What a refinement waits at most while there are edits.
     static constexpr std::chrono::milliseconds kRefinementPatience{100};
 
-    // Takes at most so many items of one company, all of one priority, off the queue together.
-    WorkerPool(std::size_t threads, std::size_t largest_company);
+    // How many items of one company, all of one priority, are taken off the queue together at
+    // most.
+    struct LargestCompany {
+        std::size_t edits = 1;
+        std::size_t refinements = 1;
+    };
+    WorkerPool(std::size_t threads, LargestCompany largest_company);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
     // As `stop`.
@@ -78,7 +83,7 @@ class WorkerPool {
     // The first of the queue, and who may go with it; nothing when it is empty.
     [[nodiscard]] std::vector<std::shared_ptr<WorkItem>> next_locked();
 
-    const std::size_t largest_company_;
+    const LargestCompany largest_company_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::vector<Waiting> queue_;  // by deadline; of equals the earlier queued first

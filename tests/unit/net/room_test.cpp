@@ -106,8 +106,8 @@ class RoomTest : public testing::Test {
     Metrics metrics_;
     SceneLibrary scenes_;
     EnvironmentLibrary environments_{EnvironmentBounds{}};
-    WorkerPool workers_{2, 16};
-    WorkerPool encoders_{2, 1};
+    WorkerPool workers_{2, {.edits = 1, .refinements = 16}};
+    WorkerPool encoders_{2, {}};
     std::shared_ptr<Rooms> rooms_;
 };
 

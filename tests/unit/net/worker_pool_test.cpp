@@ -89,7 +89,7 @@ void finish_last(WorkerPool& pool) {
 
 TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 2, .refinements = 3});
     Gate gate(pool);
     pool.enqueue(order.add('a'), WorkPriority::refinement);
     pool.enqueue(order.add('b'), WorkPriority::edit);
@@ -102,7 +102,7 @@ TEST(WorkerPool, EditsGoBeforeRefinementsEachInOrder) {
 
 TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 2, .refinements = 3});
     Gate gate(pool);
     const auto first = order.add('a');
     const auto second = order.add('b');
@@ -119,7 +119,7 @@ TEST(WorkerPool, AnItemIsQueuedOnceAndPromoted) {
 // An edit that is read when a refinement has waited long goes after it.
 TEST(WorkerPool, EditsDoNotStarveARefinement) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 2, .refinements = 3});
     Gate gate(pool);
     const Clock::time_point now = Clock::now();
     pool.enqueue(order.add('l'), WorkPriority::edit, now + 2 * WorkerPool::kRefinementPatience);
@@ -132,10 +132,10 @@ TEST(WorkerPool, EditsDoNotStarveARefinement) {
 }
 
 // What waits behind others goes with its company, if of its priority, up to the largest
-// company.
+// company of edits and of refinements.
 TEST(WorkerPool, ACompanyGoesTogether) {
     Order order;  // outlives what the pool still runs
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 3, .refinements = 2});
     Gate gate(pool);
     const int one = 1;
     const int other = 2;
@@ -146,13 +146,16 @@ TEST(WorkerPool, ACompanyGoesTogether) {
     pool.enqueue(order.add('r', &one), WorkPriority::refinement);
     pool.enqueue(order.add('c', &one), WorkPriority::edit);
     pool.enqueue(order.add('d', &one), WorkPriority::edit);
+    pool.enqueue(order.add('q', &other), WorkPriority::refinement);
+    pool.enqueue(order.add('s', &one), WorkPriority::refinement);
+    pool.enqueue(order.add('t', &one), WorkPriority::refinement);
     gate.open();
     finish(pool);
-    EXPECT_EQ(order.text(), "abcxydr");
+    EXPECT_EQ(order.text(), "abcxydrsqt");
 }
 
 TEST(WorkerPool, DelayedItemsRunAndAreReplaced) {
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 2, .refinements = 3});
     std::atomic<int> runs{0};
     std::promise<void> last;
     const auto counted = item([&runs] { ++runs; });
@@ -166,7 +169,7 @@ TEST(WorkerPool, DelayedItemsRunAndAreReplaced) {
 
 TEST(WorkerPool, StopForgetsWhatWaits) {
     std::atomic<int> runs{0};
-    WorkerPool pool(1, 3);
+    WorkerPool pool(1, {.edits = 2, .refinements = 3});
     pool.enqueue_after(item([&runs] { ++runs; }), WorkPriority::edit, std::chrono::hours(1));
     pool.stop();
     pool.enqueue(item([&runs] { ++runs; }), WorkPriority::edit);
