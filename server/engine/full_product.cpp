@@ -45,22 +45,26 @@ std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> produc
 std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::uint64_t bytes) {
     const Scene& scene = *products.front()->scene_;
     const std::uint32_t blocks = scene.block_count();
-    const std::uint64_t bytes_per_block = scene.transport().total_bytes() / blocks + 1;
     const std::uint32_t first = products.front()->next_block_;
-    auto last = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        blocks, first + std::max(bytes / bytes_per_block, kFewestBlocks)));
+    std::uint32_t most = blocks - first;
     boost::container::small_vector<BandImages::Rebuild, kMaxBatchMembers> rebuilds;
     for (FullProduct* product : products) {
-        last = std::min(last, first + product->blocks_left_);
+        most = std::min(most, product->blocks_left_);
         rebuilds.push_back(
             {.images = &product->images_.front(), .weights = &product->weights_});
     }
-    BandImages::rebuild_together(first, last, std::span(rebuilds.data(), rebuilds.size()));
-    for (FullProduct* product : products) {
-        product->next_block_ = last % blocks;
-        product->blocks_left_ -= last - first;
+    std::uint32_t count = 0;
+    std::uint64_t read = 0;
+    while (count < most && (count < kFewestBlocks || read < bytes)) {
+        read += scene.strips().bytes_of_block(first + count++);
     }
-    return bytes_per_block * (last - first) * products.size();
+    BandImages::rebuild_together(first, first + count,
+                                 std::span(rebuilds.data(), rebuilds.size()));
+    for (FullProduct* product : products) {
+        product->next_block_ = (first + count) % blocks;
+        product->blocks_left_ -= count;
+    }
+    return read * products.size();
 }
 
 void FullProduct::exchange(BandImages& images) {

@@ -26,7 +26,7 @@ class FullProduct {
     [[nodiscard]] std::uint32_t next_block() const { return next_block_; }
 
     // Each of the products, all running and of one scene, goes through some blocks, and
-    // on until about `bytes` of columns have been read; returns the bytes read, those that
+    // on until about `bytes` of strips have been read; returns the bytes read, those that
     // several shared counted for each. One ends with running() false when all is done.
     static std::uint64_t advance_together(std::span<FullProduct* const> products,
                                           std::uint64_t bytes);

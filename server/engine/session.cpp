@@ -208,7 +208,7 @@ void Session::remove_drift(StepReport& report) {
 
 std::uint64_t Session::product_bytes_per_image(const Share& share) const {
     if (share.budget.coefficients) {
-        return scene_->transport().total_bytes() / scene_->coefficient_count() *
+        return scene_->strips().bytes() / scene_->coefficient_count() *
                *share.budget.coefficients;
     }
     return product_cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions);
@@ -219,14 +219,13 @@ bool Session::full_product_is_next(const Share& share) const {
         share.sessions >= kCompanyForFullProduct || error_.relative_l2() <= kUnseenError) {
         return true;
     }
-    return scene_->transport().total_bytes() <=
-           kImagesForFullProduct * product_bytes_per_image(share);
+    return scene_->strips().bytes() <= kImagesForFullProduct * product_bytes_per_image(share);
 }
 
 // Exact images while dragging: nothing is then chosen or estimated.
 bool Session::full_product_fits_one_image(const Share& share) const {
     return !share.budget.coefficients &&
-           scene_->transport().total_bytes() <= product_bytes_per_image(share);
+           scene_->strips().bytes() <= product_bytes_per_image(share);
 }
 
 void Session::advance_full_products(std::span<SessionTurn* const> turns, std::size_t sessions) {

@@ -157,10 +157,7 @@ StripMatrix::StripMatrix(const transport::Transport& transport,
         ShardArranger(*this, transport.shards()[shard], transport.channel_count()).arrange();
     });
     for (const Block& block : blocks_) {
-        bytes_ += block.runs.size() * sizeof(Run) + block.values.size() +
-                  block.columns.size() * sizeof(std::uint16_t) +
-                  block.floats.size() * sizeof(float) +
-                  block.float_columns.size() * sizeof(std::uint16_t);
+        bytes_ += block.bytes();
     }
 }
 

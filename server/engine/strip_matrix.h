@@ -34,8 +34,11 @@ class StripMatrix {
     [[nodiscard]] std::uint32_t bands_of_block(std::uint32_t block) const {
         return blocks_[block].bands;
     }
-    // Bytes of memory.
+    // Bytes of memory: of all blocks, and of one, which is what its part of a product reads.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] std::uint64_t bytes_of_block(std::uint32_t block) const {
+        return blocks_[block].bytes();
+    }
 
     // One who has the product made.
     struct Member {
@@ -69,6 +72,12 @@ class StripMatrix {
         std::vector<std::int8_t> values;  // [columns][8]
         std::vector<std::uint16_t> float_columns;
         std::vector<float> floats;  // [float_columns][8]
+
+        [[nodiscard]] std::uint64_t bytes() const {
+            return runs.size() * sizeof(Run) + values.size() +
+                   columns.size() * sizeof(std::uint16_t) + floats.size() * sizeof(float) +
+                   float_columns.size() * sizeof(std::uint16_t);
+        }
     };
     class ShardArranger;
 
