@@ -106,6 +106,22 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     return upper * (1 - fy) + lower * fy;
 }
 
+// Pixels asked for before their turn: a turned row crosses the map at any slope, which no
+// prefetcher of the processor follows.
+constexpr std::size_t kLooksAhead = 8;
+void prefetch(const Level& level, const MapPoint& point) {
+    const auto place = [](float part, std::uint32_t count) {
+        const float at = part * static_cast<float>(count) - 0.5F;
+        return static_cast<std::size_t>(
+            std::clamp(at, 0.0F, static_cast<float>(count - 1)));
+    };
+    const std::size_t row =
+        std::size_t{point.face} * level.height + place(point.y, level.height);
+    const float* texel = &level.rgb[3 * (row * level.width + place(point.x, level.width))];
+    __builtin_prefetch(texel);
+    __builtin_prefetch(texel + std::size_t{3} * level.width);
+}
+
 // Towards the poles the texels of a lat-long map become narrow, and one pixel spans many of
 // them side by side.
 Imath::V3f lat_long_lookup(const Level& level,
@@ -137,7 +153,10 @@ struct LevelBlend {
     float coarser_share = 0;
 };
 LevelBlend blend_for(float wanted_level, std::size_t level_count) {
-    const float level = std::clamp(wanted_level, 0.0F, static_cast<float>(level_count - 1));
+    if (!(wanted_level > 0)) {
+        return {};
+    }
+    const float level = std::min(wanted_level, static_cast<float>(level_count - 1));
     const auto finer = static_cast<std::size_t>(level);
     return {.finer = finer, .coarser_share = level - static_cast<float>(finer)};
 }
@@ -173,9 +192,14 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
     LookNumbers levels;
     footprint_levels(footprints_sr, texel_side_radians(layout_, levels_.front().height),
                      levels);
-    for (std::size_t i = 0; i < radiances.size(); ++i) {
-        const MapPoint point{
+    const auto point_at = [&](std::size_t i) {
+        return MapPoint{
             .face = points.faces[i], .x = points.places.x[i], .y = points.places.y[i]};
+    };
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        const std::size_t ahead = std::min(i + kLooksAhead, radiances.size() - 1);
+        prefetch(levels_[blend_for(levels[ahead], levels_.size()).finer], point_at(ahead));
+        const MapPoint point = point_at(i);
         if (footprints_sr[i] <= 0) {
             radiances[i] = bilinear(layout_, levels_.front(), point);
             continue;

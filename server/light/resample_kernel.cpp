@@ -1,5 +1,6 @@
 #include "server/light/resample_kernel.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
@@ -228,6 +229,19 @@ HWY_INLINE void mean_of_samples(const float* texels,
     hn::Store(hn::Add(even, odd), Texels(), rgb);
 }
 
+// A turned line crosses the map at any slope, which no prefetcher of the processor follows.
+constexpr std::uint32_t kTexelsAhead = 12;
+HWY_INLINE void prefetch_samples(const float* texels,
+                                 std::size_t below,
+                                 const SampleLine (&lines)[kLines],
+                                 std::uint32_t column) {
+    for (const SampleLine& line : lines) {
+        const float* texel = texels + line.offset[column * kSamplesPerLine];
+        __builtin_prefetch(texel);
+        __builtin_prefetch(texel + below);
+    }
+}
+
 void resample_face_row(const ResampleJob& job,
                        std::uint32_t face,
                        std::uint32_t row,
@@ -241,6 +255,7 @@ void resample_face_row(const ResampleJob& job,
     const std::size_t plane = basis::texel_count(n);
     float* out = job.out + (std::size_t{face} * n + row) * n;
     for (std::uint32_t column = 0; column < n; ++column) {
+        prefetch_samples(job.texels, below, lines, std::min(column + kTexelsAhead, n - 1));
         alignas(16) float rgb[kTexelFloats];
         for (std::size_t first = 0; first < kTexelFloats; first += hn::Lanes(Texels())) {
             mean_of_samples(job.texels + first, below, lines, weights, column, rgb + first);

@@ -8,12 +8,16 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace relume::engine::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+// Rows asked for before their turn; they lie apart by those of the other colours.
+constexpr std::size_t kRowsAhead = 8;
 
 // Four vectors of sums stay in registers while all rows go by.
 template <typename Float>
@@ -44,6 +48,7 @@ HWY_INLINE void add_rows_of(const std::int8_t* HWY_RESTRICT table,
         for (std::size_t row = 0; row < row_count; ++row) {
             const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
             const std::size_t first = rows[row].first + i;
+            __builtin_prefetch(table + rows[std::min(row + kRowsAhead, row_count - 1)].first + i);
             sum0 = hn::MulAdd(weight, values(first), sum0);
             sum1 = hn::MulAdd(weight, values(first + lanes), sum1);
             sum2 = hn::MulAdd(weight, values(first + 2 * lanes), sum2);
