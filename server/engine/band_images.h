@@ -15,8 +15,8 @@ namespace relume::engine {
 // Most sessions that are relit in one sweep.
 inline constexpr std::size_t kMaxBatchMembers = 16;
 
-// Sums are [blocks][3][256], in the basis of the blocks, before tint. A block's sums are made by
-// one thread in one order, so the result does not depend on the number of threads. Not
+// Sums are [blocks][3][256], in the basis of the blocks, before tint. A block's sums are made
+// by one thread in one order, so the result does not depend on the number of threads. Not
 // thread-safe.
 class BandImages {
   public:

@@ -48,9 +48,9 @@ void Background::radiances(const LookDirections& world_directions,
         add_environment(*blend_, blend_scale_, source_directions, footprints_sr, radiances);
     }
     for (std::size_t i = 0; !lights_.empty() && i < radiances.size(); ++i) {
-        radiances[i] += lights_seen(
-            {world_directions.x[i], world_directions.y[i], world_directions.z[i]},
-            footprints_sr[i]);
+        radiances[i] +=
+            lights_seen({world_directions.x[i], world_directions.y[i], world_directions.z[i]},
+                        footprints_sr[i]);
     }
 }
 

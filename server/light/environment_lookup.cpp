@@ -112,8 +112,7 @@ constexpr std::size_t kLooksAhead = 8;
 void prefetch(const Level& level, const MapPoint& point) {
     const auto place = [](float part, std::uint32_t count) {
         const float at = part * static_cast<float>(count) - 0.5F;
-        return static_cast<std::size_t>(
-            std::clamp(at, 0.0F, static_cast<float>(count - 1)));
+        return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
     };
     const std::size_t row =
         std::size_t{point.face} * level.height + place(point.y, level.height);

@@ -15,8 +15,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace resample_row_detail {
 
-// A texel's samples form a quincunx: lines of two, every other line shifted by half the distance
-// between its samples.
+// A texel's samples form a quincunx: lines of two, every other line shifted by half the
+// distance between its samples.
 constexpr std::uint32_t kLines = 4;
 constexpr std::uint32_t kSamplesPerLine = 2;
 constexpr std::uint32_t kMaxSamples = basis::kMaxFaceResolution * kSamplesPerLine;

@@ -28,8 +28,8 @@ struct ResampleJob {
     float* out;  // 3 planes of 6·n²
 };
 
-// Writes one row of all six faces: each texel is the mean of eight bilinear samples, weighted by
-// the solid angle each stands for. The same bits on every machine.
+// Writes one row of all six faces: each texel is the mean of eight bilinear samples, weighted
+// by the solid angle each stands for. The same bits on every machine.
 void resample_row(const ResampleJob& job, std::uint32_t row);
 
 }  // namespace relume::light

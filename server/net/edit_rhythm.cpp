@@ -15,8 +15,8 @@ void EditRhythm::edit_came(Clock::time_point at) {
     if (gap > kLongestInterval) {
         interval_ = {};
     } else {
-        interval_ = interval_ == Clock::duration{} ? gap
-                                                   : interval_ + (gap - interval_) / kNewest;
+        interval_ =
+            interval_ == Clock::duration{} ? gap : interval_ + (gap - interval_) / kNewest;
     }
 }
 

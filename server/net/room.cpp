@@ -275,9 +275,8 @@ std::optional<RoomSlice> Room::begin_slice() {
     }
     untaken_edit_.reset();
     slice.first_image_due = unshown_edit_.has_value();
-    slice.only_picture_is_missing =
-        slice.first_image_due && !slice.state_changed && !encoding_ &&
-        viewer_wants_moving_locked();
+    slice.only_picture_is_missing = slice.first_image_due && !slice.state_changed &&
+                                    !encoding_ && viewer_wants_moving_locked();
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
@@ -293,9 +292,8 @@ void Room::look_who_is_ready(RoomSlice& slice) const {
 }
 
 bool Room::viewer_wants_moving_locked() const {
-    return std::any_of(viewers_.begin(), viewers_.end(), [](const SharedOutbox& viewer) {
-        return viewer->wants_moving_image();
-    });
+    return std::any_of(viewers_.begin(), viewers_.end(),
+                       [](const SharedOutbox& viewer) { return viewer->wants_moving_image(); });
 }
 
 void Room::end_slice(const RoomSlice& slice, SliceResult result) {

@@ -60,8 +60,10 @@ void SceneLibrary::open(const fs::path& directory) {
                     .engine = std::make_shared<const engine::Scene>(std::move(transport)),
                     .sky = std::move(sky)});
     const transport::TileGrid& image = scene->engine->image();
-    spdlog::info("scene_opened name={} width={} height={} face_resolution={} bytes={}", name,
-                 image.width, image.height, scene->engine->face_resolution(), bytes);
+    spdlog::info(
+        "scene_opened name={} width={} height={} face_resolution={} bytes={} memory_bytes={}",
+        name, image.width, image.height, scene->engine->face_resolution(), bytes,
+        scene->engine->bytes());
     const std::lock_guard lock(mutex_);
     scenes_.insert_or_assign(name, std::move(scene));
 }

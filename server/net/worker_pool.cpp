@@ -96,9 +96,8 @@ std::vector<std::shared_ptr<WorkItem>> WorkerPool::next_locked() {
     }
     const WorkPriority priority = queue_.front().priority;
     const void* const company = queue_.front().item->company();
-    const std::size_t largest = priority == WorkPriority::edit
-                                    ? largest_company_.edits
-                                    : largest_company_.refinements;
+    const std::size_t largest =
+        priority == WorkPriority::edit ? largest_company_.edits : largest_company_.refinements;
     std::erase_if(queue_, [&](Waiting& waiting) {
         const bool taken = next.empty() ||
                            (next.size() < largest && company != nullptr &&

@@ -181,10 +181,10 @@ void multiply_as_specified(const StripRun<Value>& run, std::span<const StripTarg
                 std::array<float, 2> sums{};
                 for (std::size_t i = begin; i < run.begins[place + 1]; ++i) {
                     float& sum = sums[(i - begin) % 2];
-                    sum = std::fma(target.weights[kWeightsPerColumn * run.columns[i] + c],
-                                   static_cast<float>(
-                                       run.values[kStripSlots * i + slot % kStripSlots]),
-                                   sum);
+                    sum = std::fma(
+                        target.weights[kWeightsPerColumn * run.columns[i] + c],
+                        static_cast<float>(run.values[kStripSlots * i + slot % kStripSlots]),
+                        sum);
                 }
                 float& total = target.sums[c * kBlockSize + slot];
                 total = std::fma(run.scale, sums[0] + sums[1], total);

@@ -48,7 +48,8 @@ HWY_INLINE void add_rows_of(const std::int8_t* HWY_RESTRICT table,
         for (std::size_t row = 0; row < row_count; ++row) {
             const auto weight = hn::Set(df, static_cast<Float>(rows[row].weight));
             const std::size_t first = rows[row].first + i;
-            __builtin_prefetch(table + rows[std::min(row + kRowsAhead, row_count - 1)].first + i);
+            __builtin_prefetch(table + rows[std::min(row + kRowsAhead, row_count - 1)].first +
+                               i);
             sum0 = hn::MulAdd(weight, values(first), sum0);
             sum1 = hn::MulAdd(weight, values(first + lanes), sum1);
             sum2 = hn::MulAdd(weight, values(first + 2 * lanes), sum2);

@@ -53,14 +53,13 @@ TEST(CellStrips, AddUpToTheCell) {
                 std::vector<std::uint8_t> bytes;
                 transport::append_cell_as(as, cell, bytes);
                 Reassembled sum;
-                transport::for_each_strip(as, bytes.data(),
-                                          [&](std::size_t part, std::size_t strip,
-                                              const auto& values) {
-                                              sum.add(part, strip, values);
-                                              EXPECT_TRUE(std::any_of(
-                                                  values.begin(), values.end(),
-                                                  [](auto value) { return value != 0; }));
-                                          });
+                transport::for_each_strip(
+                    as, bytes.data(),
+                    [&](std::size_t part, std::size_t strip, const auto& values) {
+                        sum.add(part, strip, values);
+                        EXPECT_TRUE(std::any_of(values.begin(), values.end(),
+                                                [](auto value) { return value != 0; }));
+                    });
                 DecodedCell expected;
                 transport::decode_cell(as, bytes.data(), expected);
                 EXPECT_EQ(sum.cell(), expected) << transport::kCellTagNames[tag];
@@ -80,8 +79,8 @@ TEST(StripMatrix, MultipliesToTheDenseProduct) {
         std::vector<float> sums(tiny.scene()->sum_count());
         for (std::uint32_t block = 0; block < strips.block_count(); ++block) {
             for (std::uint32_t band = 0; band < tiny.scene()->band_count(); ++band) {
-                const StripMatrix::Member member{
-                    .weights = &weights, .sums = &sums[block * kColours * kBlockSize]};
+                const StripMatrix::Member member{.weights = &weights,
+                                                 .sums = &sums[block * kColours * kBlockSize]};
                 strips.multiply(block, band, {&member, 1});
             }
         }

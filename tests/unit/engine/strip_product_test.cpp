@@ -14,8 +14,8 @@ namespace {
 
 using transport::kBlockSize;
 using transport::kColours;
-using transport::kStripsPerBlock;
 using transport::kStripSlots;
+using transport::kStripsPerBlock;
 
 constexpr std::size_t kColumns = 300;
 
@@ -39,8 +39,10 @@ struct Strips {
         }
     }
     [[nodiscard]] StripRun<Value> run(float scale) const {
-        return {
-            .columns = columns.data(), .values = values.data(), .begins = begins, .scale = scale};
+        return {.columns = columns.data(),
+                .values = values.data(),
+                .begins = begins,
+                .scale = scale};
     }
 };
 

@@ -75,9 +75,10 @@ TEST(Background, DiscsAreRoundEvenAndSharp) {
     for (int i = 0; i < 360; ++i) {
         const float turn = static_cast<float>(i) * std::numbers::pi_v<float> / 180;
         const auto at = [&](float angle) {
-            return radiance(background, {std::sin(angle) * std::cos(turn),
-                                        std::sin(angle) * std::sin(turn), -std::cos(angle)},
-                                       kPixel * kPixel);
+            return radiance(background,
+                            {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
+                             -std::cos(angle)},
+                            kPixel * kPixel);
         };
         EXPECT_EQ(at(kRadius - kPixel), Imath::V3f(7, 8, 9));
         EXPECT_EQ(at(kRadius + kPixel), Imath::V3f(0));

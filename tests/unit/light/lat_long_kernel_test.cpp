@@ -56,8 +56,8 @@ TEST(LatLongPoints, AreThoseOfTheFormula) {
             const float apart = std::abs(points.x[i] - expected.x);
             EXPECT_LT(std::min(apart, 1 - apart), 4e-7F) << d;
             EXPECT_NEAR(points.y[i], expected.y, 4e-7F) << d;
-            EXPECT_NEAR(points.cos_latitude[i],
-                        std::sqrt((d.x * d.x + d.z * d.z) / d.dot(d)), 1e-6F)
+            EXPECT_NEAR(points.cos_latitude[i], std::sqrt((d.x * d.x + d.z * d.z) / d.dot(d)),
+                        1e-6F)
                 << d;
         }
     }
