@@ -1,5 +1,7 @@
 #include "server/engine/full_product.h"
 
+#include "server/engine/spare_images.h"
+
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
@@ -15,11 +17,19 @@ constexpr std::uint64_t kFewestBlocks = 16;
 
 void FullProduct::start(std::span<const float> lighting, std::uint32_t first_block) {
     if (images_.empty()) {
-        images_.emplace_back(*scene_);
+        images_.push_back(scene_->spare_images().take(*scene_));
     }
     scene_->strips().set_weights(scene_->transport(), lighting, weights_);
     next_block_ = first_block;
     blocks_left_ = scene_->block_count();
+}
+
+void FullProduct::abandon() {
+    blocks_left_ = 0;
+    if (!images_.empty()) {
+        scene_->spare_images().give(std::move(images_.front()));
+        images_.clear();
+    }
 }
 
 std::uint64_t FullProduct::advance_together(std::span<FullProduct* const> products,
@@ -69,6 +79,7 @@ std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::ui
 
 void FullProduct::exchange(BandImages& images) {
     std::swap(images, images_.front());
+    abandon();
 }
 
 }  // namespace relume::engine

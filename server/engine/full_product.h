@@ -22,7 +22,7 @@ class FullProduct {
     // Begins anew with this lighting, planar [3][N], at any block: it goes around. Products
     // that stand at the same block are swept together.
     void start(std::span<const float> lighting, std::uint32_t first_block = 0);
-    void abandon() { blocks_left_ = 0; }
+    void abandon();
     [[nodiscard]] std::uint32_t next_block() const { return next_block_; }
 
     // Each of the products, all running and of one scene, goes through some blocks, and
@@ -43,7 +43,7 @@ class FullProduct {
     static std::uint64_t sweep(std::span<FullProduct* const> products, std::uint64_t bytes);
 
     const Scene* scene_;
-    std::vector<BandImages> images_;  // none until first needed, then one
+    std::vector<BandImages> images_;  // one, borrowed, while it runs
     ColumnWeights weights_;
     std::uint32_t next_block_ = 0;
     std::uint32_t blocks_left_ = 0;

@@ -1,5 +1,7 @@
 #include "server/engine/scene.h"
 
+#include "server/engine/spare_images.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,7 +12,8 @@ using transport::kColours;
 
 Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)),
-      projection_(basis::CubemapProjection::onto(light_basis())) {
+      projection_(basis::CubemapProjection::onto(light_basis())),
+      spare_images_(std::make_unique<SpareImages>()) {
     const std::size_t count = transport_->column_count();
     bands_.resize(count);
     for (auto& weights : weights_) {
@@ -35,6 +38,8 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     order_by_band();
     strips_ = std::make_unique<const StripMatrix>(*transport_, columns_by_band_, band_chunks_);
 }
+
+Scene::~Scene() = default;
 
 void Scene::order_by_band() {
     constexpr std::size_t kColumnsPerChunk = 1024;

@@ -15,10 +15,15 @@
 
 namespace relume::engine {
 
-// Immutable; safe to share between threads.
+class SpareImages;
+
+// Immutable but for what it lends; safe to share between threads.
 class Scene {
   public:
     explicit Scene(std::shared_ptr<const transport::Transport> transport);
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+    ~Scene();
 
     [[nodiscard]] const transport::Transport& transport() const { return *transport_; }
     [[nodiscard]] const transport::TileGrid& image() const {
@@ -60,6 +65,8 @@ class Scene {
 
     // The transport arranged for whole products.
     [[nodiscard]] const StripMatrix& strips() const { return *strips_; }
+    // Where sessions borrow the images that they make whole products in.
+    [[nodiscard]] SpareImages& spare_images() const { return *spare_images_; }
     // Bytes of memory: the mapped transport and the strips.
     [[nodiscard]] std::uint64_t bytes() const {
         return transport_->total_bytes() + strips_->bytes();
@@ -87,6 +94,7 @@ class Scene {
     std::vector<BandChunk> band_chunks_;
     std::array<std::vector<float>, 4> weights_;
     std::unique_ptr<const StripMatrix> strips_;
+    std::unique_ptr<SpareImages> spare_images_;
 };
 
 }  // namespace relume::engine
