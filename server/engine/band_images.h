@@ -100,8 +100,8 @@ class BandImages {
     std::vector<std::vector<float>> bands_;
     std::vector<float> total_;
     std::vector<Drift> drift_;  // [bands]
-    double total_squared_norms_ =
-        0;  // Σ_updates of a band ‖total‖², since the bands were summed
+    // Σ_updates of a band ‖total‖², since the bands were summed.
+    double total_squared_norms_ = 0;
     std::vector<std::uint32_t> occupied_;  // [blocks], bands that are not zero all over
     std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
 };

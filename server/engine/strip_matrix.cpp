@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 namespace relume::engine {
 namespace {
@@ -43,8 +44,13 @@ class StripMatrix::ShardArranger {
         }
         for_each_strip([this](std::uint32_t block, std::size_t run, std::size_t place,
                               std::uint16_t column, const auto& values) {
-            put(matrix_.blocks_[reader_.first_block() + block], strip(block, run, place)++,
-                column, values);
+            Block& target = matrix_.blocks_[reader_.first_block() + block];
+            const std::size_t at = strip(block, run, place)++;
+            if constexpr (std::is_same_v<decltype(values), const transport::StripValues&>) {
+                put(target.parts, at, column, values);
+            } else {
+                put(target.floats, at, column, values);
+            }
         });
     }
 
@@ -120,25 +126,17 @@ class StripMatrix::ShardArranger {
                 block.runs.push_back(begun);
             }
         }
-        block.columns.resize(bytes);
-        block.values.resize(kStripSlots * bytes);
-        block.float_columns.resize(floats);
-        block.floats.resize(kStripSlots * floats);
+        block.parts.resize(bytes);
+        block.floats.resize(floats);
     }
 
-    static void put(Block& block,
+    template <typename Value>
+    static void put(Strips<Value>& strips,
                     std::size_t at,
                     std::uint16_t column,
-                    const transport::StripValues& values) {
-        block.columns[at] = column;
-        std::copy(values.begin(), values.end(), &block.values[kStripSlots * at]);
-    }
-    static void put(Block& block,
-                    std::size_t at,
-                    std::uint16_t column,
-                    const transport::FloatStripValues& values) {
-        block.float_columns[at] = column;
-        std::copy(values.begin(), values.end(), &block.floats[kStripSlots * at]);
+                    const std::array<Value, kStripSlots>& values) {
+        strips.columns[at] = column;
+        std::copy(values.begin(), values.end(), &strips.values[kStripSlots * at]);
     }
 
     StripMatrix& matrix_;
@@ -179,13 +177,13 @@ void StripMatrix::multiply(std::uint32_t number,
         }
         const std::span<const StripTarget> all(targets.data(), targets.size());
         if (run.kind == kFloats) {
-            multiply_float_strips({.columns = block.float_columns.data(),
-                                   .values = block.floats.data(),
+            multiply_float_strips({.columns = block.floats.columns.data(),
+                                   .values = block.floats.values.data(),
                                    .begins = run.begins},
                                   all);
         } else {
-            multiply_strips({.columns = block.columns.data(),
-                             .values = block.values.data(),
+            multiply_strips({.columns = block.parts.columns.data(),
+                             .values = block.parts.values.data(),
                              .begins = run.begins,
                              .scale = kScales[run.kind]},
                             all);

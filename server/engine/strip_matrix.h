@@ -64,19 +64,27 @@ class StripMatrix {
         std::uint8_t kind = 0;
         std::array<std::uint32_t, transport::kStripsPerBlock + 1> begins{};
     };
+    template <typename Value>
+    struct Strips {
+        std::vector<std::uint16_t> columns;
+        std::vector<Value> values;  // [columns][8]
+
+        void resize(std::size_t count) {
+            columns.resize(count);
+            values.resize(transport::kStripSlots * count);
+        }
+        [[nodiscard]] std::uint64_t bytes() const {
+            return columns.size() * sizeof(std::uint16_t) + values.size() * sizeof(Value);
+        }
+    };
     struct Block {
         std::uint32_t bands = 0;
         std::vector<Run> runs;  // by chunk
-        // Runs of floats have their own columns, too.
-        std::vector<std::uint16_t> columns;
-        std::vector<std::int8_t> values;  // [columns][8]
-        std::vector<std::uint16_t> float_columns;
-        std::vector<float> floats;  // [float_columns][8]
+        Strips<std::int8_t> parts;
+        Strips<float> floats;
 
         [[nodiscard]] std::uint64_t bytes() const {
-            return runs.size() * sizeof(Run) + values.size() +
-                   columns.size() * sizeof(std::uint16_t) + floats.size() * sizeof(float) +
-                   float_columns.size() * sizeof(std::uint16_t);
+            return runs.size() * sizeof(Run) + parts.bytes() + floats.bytes();
         }
     };
     class ShardArranger;

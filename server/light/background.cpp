@@ -36,9 +36,7 @@ void Background::radiances(const LookDirections& world_directions,
         const Imath::V3f direction =
             Imath::V3f(world_directions.x[i], world_directions.y[i], world_directions.z[i]) *
             source_from_world_;
-        source_directions.x[i] = direction.x;
-        source_directions.y[i] = direction.y;
-        source_directions.z[i] = direction.z;
+        source_directions.set(i, direction.x, direction.y, direction.z);
     }
     if (environment_) {
         add_environment(*environment_, environment_scale_, source_directions, footprints_sr,
@@ -83,16 +81,18 @@ Imath::V3f Background::lights_seen(const Imath::V3f& world_direction,
     return sum;
 }
 
+Imath::V3f Background::radiance(const Imath::V3f& world_direction, float footprint_sr) const {
+    LookDirections direction;
+    direction.set(0, world_direction.x, world_direction.y, world_direction.z);
+    Imath::V3f result;
+    radiances(direction, {&footprint_sr, 1}, {&result, 1});
+    return result;
+}
+
 Imath::V3f background_radiance(const LightRig& rig,
                                const Imath::V3f& world_direction,
                                float footprint_sr) {
-    LookDirections direction;
-    direction.x[0] = world_direction.x;
-    direction.y[0] = world_direction.y;
-    direction.z[0] = world_direction.z;
-    Imath::V3f radiance;
-    Background(rig).radiances(direction, {&footprint_sr, 1}, {&radiance, 1});
-    return radiance;
+    return Background(rig).radiance(world_direction, footprint_sr);
 }
 
 }  // namespace relume::light

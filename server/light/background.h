@@ -25,6 +25,9 @@ class Background {
     void radiances(const LookDirections& world_directions,
                    std::span<const float> footprints_sr,
                    std::span<Imath::V3f> radiances) const;
+    // Of one.
+    [[nodiscard]] Imath::V3f radiance(const Imath::V3f& world_direction,
+                                      float footprint_sr) const;
 
   private:
     void add_environment(const PrefilteredEnvironment& environment,

@@ -222,9 +222,7 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
 Imath::V3f EnvironmentMap::radiance(const Imath::V3f& source_direction,
                                     float footprint_sr) const {
     LookDirections direction;
-    direction.x[0] = source_direction.x;
-    direction.y[0] = source_direction.y;
-    direction.z[0] = source_direction.z;
+    direction.set(0, source_direction.x, source_direction.y, source_direction.z);
     Imath::V3f result;
     radiances(direction, {&footprint_sr, 1}, {&result, 1});
     return result;

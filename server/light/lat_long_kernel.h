@@ -16,6 +16,12 @@ struct alignas(64) LookDirections {
     LookNumbers x{};
     LookNumbers y{};
     LookNumbers z{};
+
+    void set(std::size_t i, float to_x, float to_y, float to_z) {
+        x[i] = to_x;
+        y[i] = to_y;
+        z[i] = to_z;
+    }
 };
 
 struct alignas(64) LatLongPoints {

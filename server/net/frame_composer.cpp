@@ -31,9 +31,8 @@ void look(const light::Background& background,
     light::LookDirections directions;
     std::array<float, light::kLooksPerRun> footprints_sr;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        directions.x[i] = pixels[i].direction.x;
-        directions.y[i] = pixels[i].direction.y;
-        directions.z[i] = pixels[i].direction.z;
+        const Imath::V3f& direction = pixels[i].direction;
+        directions.set(i, direction.x, direction.y, direction.z);
         footprints_sr[i] = pixels[i].footprint_sr;
     }
     background.radiances(directions, std::span(footprints_sr).first(pixels.size()), radiances);

@@ -12,18 +12,6 @@ namespace {
 
 using namespace testing;
 
-Imath::V3f radiance(const Background& background,
-                    const Imath::V3f& world_direction,
-                    float footprint_sr) {
-    LookDirections direction;
-    direction.x[0] = world_direction.x;
-    direction.y[0] = world_direction.y;
-    direction.z[0] = world_direction.z;
-    Imath::V3f radiance;
-    background.radiances(direction, {&footprint_sr, 1}, {&radiance, 1});
-    return radiance;
-}
-
 TEST(Background, IsTheSourceItselfTurnedAndScaled) {
     // A stripe pattern that 8² texels of lighting could never hold.
     const Radiance stripes = [](const Imath::V3f& d) {
@@ -38,7 +26,7 @@ TEST(Background, IsTheSourceItselfTurnedAndScaled) {
     for (int i = 0; i < 500; ++i) {
         const Imath::V3f source = random_direction(generator);
         const Imath::V3f world = rig.rotation.rotateVector(source);
-        const Imath::V3f shown = radiance(background, world * 5.0F, 1e-7F);
+        const Imath::V3f shown = background.radiance(world * 5.0F, 1e-7F);
         EXPECT_LT((shown - rig.environment_scale * stripes(source)).length(), 0.03F);
         EXPECT_EQ(shown, background_radiance(rig, world * 5.0F, 1e-7F));
     }
@@ -57,7 +45,7 @@ TEST(Background, ShowsTheEnergyThatTheLightingGets) {
     Imath::V3d sum(0);
     constexpr int kDirections = 100000;
     for (int i = 0; i < kDirections; ++i) {
-        sum += Imath::V3d(radiance(background, random_direction(generator), 1e-5F));
+        sum += Imath::V3d(background.radiance(random_direction(generator), 1e-5F));
     }
     const Imath::V3d shown = sum * (4 * std::numbers::pi / kDirections);
     const Imath::V3d given = total_energy(cubemap);
@@ -75,10 +63,9 @@ TEST(Background, DiscsAreRoundEvenAndSharp) {
     for (int i = 0; i < 360; ++i) {
         const float turn = static_cast<float>(i) * std::numbers::pi_v<float> / 180;
         const auto at = [&](float angle) {
-            return radiance(background,
-                            {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
-                             -std::cos(angle)},
-                            kPixel * kPixel);
+            return background.radiance({std::sin(angle) * std::cos(turn),
+                                        std::sin(angle) * std::sin(turn), -std::cos(angle)},
+                                       kPixel * kPixel);
         };
         EXPECT_EQ(at(kRadius - kPixel), Imath::V3f(7, 8, 9));
         EXPECT_EQ(at(kRadius + kPixel), Imath::V3f(0));
@@ -99,7 +86,7 @@ TEST(Background, DiscsKeepTheirEnergyAtAnyPixelSize) {
                 const Imath::V3f d(static_cast<float>(x) * kPixel,
                                    static_cast<float>(y) * kPixel, -1);
                 const float footprint = kPixel * kPixel / std::pow(d.length(), 3.0F);
-                energy += double{footprint} * double{radiance(background, d, footprint).x};
+                energy += double{footprint} * double{background.radiance(d, footprint).x};
             }
         }
         // One sample a pixel of a cone two pixels wide leaves some ripple.

@@ -42,9 +42,7 @@ TEST(LatLongPoints, AreThoseOfTheFormula) {
             std::min({kLooksPerRun, all.size() - first, first / kLooksPerRun + 1});
         LookDirections run;
         for (std::size_t i = 0; i < count; ++i) {
-            run.x[i] = all[first + i].x;
-            run.y[i] = all[first + i].y;
-            run.z[i] = all[first + i].z;
+            run.set(i, all[first + i].x, all[first + i].y, all[first + i].z);
         }
         LatLongPoints points;
         lat_long_points(run, count, points);
