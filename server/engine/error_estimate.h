@@ -17,12 +17,17 @@ class ErrorEstimate {
   public:
     explicit ErrorEstimate(const Scene& scene);
 
-    // Lighting is planar [3][N].
-    void set_target(std::span<const float> lighting) { target_.set(lighting); }
+    // Lighting is planar [3][N]. What does not count of a target is left out, what is shown is
+    // taken whole: it may be far brighter than the next target.
+    void set_target(std::span<const float> lighting) { target_.set_nearly(lighting); }
     void set_approximation(std::span<const float> lighting) { approximation_.set(lighting); }
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { approximation_.apply(plan); }
-    void approximation_is_target() { approximation_ = target_; }
+    // L̃ is now this target.
+    void approximation_is(std::span<const float> target) {
+        target_.set(target);
+        approximation_ = target_;
+    }
 
     // 0 when both are equal; 1 when nothing of the target is shown. When the target is black,
     // 0 if the approximation is too, else 1.

@@ -49,7 +49,7 @@ bool Guard::set_target(std::span<const float> lighting) {
     for (std::size_t r = 0; r < target_.size(); ++r) {
         last_target_[r] = target_.sum(r);
     }
-    target_.set(lighting);
+    target_.set_nearly(lighting);
     for (std::size_t r = 0; r < target_.size(); ++r) {
         if (target_.sum(r) != last_target_[r]) {
             return false;
@@ -133,8 +133,9 @@ void Guard::apply(const Plan& plan) {
     }
 }
 
-void Guard::approximation_is_target() {
+void Guard::approximation_is(std::span<const float> target) {
     if (approximation_known_) {
+        target_.set(target);
         approximation_ = target_;
     }
 }

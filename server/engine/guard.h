@@ -53,8 +53,8 @@ class Guard {
 
     // The plan, by whomever it was made, has been carried out on L̃.
     void apply(const Plan& plan);
-    // L̃ is the L of the last decision.
-    void approximation_is_target();
+    // L̃ is now this target.
+    void approximation_is(std::span<const float> target);
     // L̃ or L has changed in other ways; costs one more pass at the next decision.
     void forget() { approximation_known_ = false; }
 

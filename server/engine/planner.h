@@ -27,8 +27,8 @@ class Planner {
 
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { guard_.apply(plan); }
-    // L̃ is L.
-    void approximation_is_target() { guard_.approximation_is_target(); }
+    // L̃ is now this target.
+    void approximation_is(std::span<const float> target) { guard_.approximation_is(target); }
     // L̃ has changed in ways nobody told.
     void approximation_is_unknown() { guard_.forget(); }
 

@@ -281,8 +281,8 @@ void Session::full_product_is_done(StepReport& report) {
         estimates_are_stale_ = true;
         report.applied = static_cast<std::uint32_t>(scene_->coefficient_count());
     } else {
-        error_.approximation_is_target();
-        planner_.approximation_is_target();
+        error_.approximation_is(lighting_.target());
+        planner_.approximation_is(lighting_.target());
         report.applied = remaining_;
     }
     lighting_is_new_ = false;

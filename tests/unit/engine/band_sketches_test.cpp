@@ -71,6 +71,28 @@ TEST(BandSketches, HoldEveryBandOfALighting) {
     }
 }
 
+// A sun over a faint sky, of which most columns do not count: what is left out leaves no more
+// of the norm than is stated.
+TEST(BandSketches, LeaveOutOnlyWhatDoesNotCount) {
+    const TinyScene tiny({.channels = 3});
+    const Scene& scene = *tiny.scene();
+    auto lighting = test::random_lighting(8, 3);
+    for (std::size_t i = 0; i < lighting.size(); ++i) {
+        lighting[i] *= i % 50 == 0 ? 1.0F : 1e-6F;
+    }
+    BandSketches whole(scene, tiny.transport().stating_sketch());
+    BandSketches nearly(scene, tiny.transport().stating_sketch());
+    whole.set(lighting);
+    nearly.set_nearly(lighting);
+    const auto all = sum_of(whole);
+    auto left_out = sum_of(nearly);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        left_out[i] -= all[i];
+    }
+    EXPECT_GT(norm(left_out), 0);
+    EXPECT_LT(norm(left_out), 1e-5 * norm(all));
+}
+
 // However bright what came and went, updates in double precision leave nothing of it.
 TEST(BandSketches, KeepNothingOfALightThatIsGone) {
     const TinyScene tiny;

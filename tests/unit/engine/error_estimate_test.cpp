@@ -99,7 +99,7 @@ TEST(ErrorEstimate, KnowsNothingAndBlack) {
     const auto light = test::random_lighting(8, 2);
     estimate.set_target(light);
     EXPECT_EQ(estimate.relative_l2(), 1) << "nothing shown yet";
-    estimate.approximation_is_target();
+    estimate.approximation_is(light);
     EXPECT_EQ(estimate.relative_l2(), 0);
     estimate.set_target(std::vector<float>(light.size()));
     EXPECT_EQ(estimate.relative_l2(), 1) << "light shown, black wanted";
