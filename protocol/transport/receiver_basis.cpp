@@ -58,21 +58,15 @@ RELUME_CPU_CLONES void refine(const float* __restrict averages,
     }
 }
 
-void z_ordered_receivers_from_coefficients(std::span<const float, kBlockSize> coefficients,
-                                           std::span<float, kBlockSize> receivers) {
+void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
+    std::array<float, kBlockSize> receivers;  // in Z-order
     std::array<float, kBlockSize / 4> coarser;
-    const float* wavelets = coefficients.data();
-    coarser[0] = coefficients[0];
-    refine(coarser.data(), wavelets + 1, 1, receivers.data());
+    coarser[0] = values[0];
+    refine(coarser.data(), &values[1], 1, receivers.data());
     for (std::size_t places = 4; places < kBlockSize; places *= 4) {
         std::copy_n(receivers.begin(), places, coarser.begin());
-        refine(coarser.data(), wavelets + places, places, receivers.data());
+        refine(coarser.data(), &values[places], places, receivers.data());
     }
-}
-
-void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
-    std::array<float, kBlockSize> receivers;
-    z_ordered_receivers_from_coefficients(values, receivers);
     for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
         values[slot] = receivers[kZOrder[slot]];
     }

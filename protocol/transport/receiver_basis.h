@@ -40,8 +40,4 @@ inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
 void block_coefficients_from_receivers(std::span<float, kBlockSize> values);
 void block_receivers_from_coefficients(std::span<float, kBlockSize> values);
 
-// For who puts pixels in their places himself: the receiver of slot s lands at kZOrder[s].
-void z_ordered_receivers_from_coefficients(std::span<const float, kBlockSize> coefficients,
-                                           std::span<float, kBlockSize> receivers);
-
 }  // namespace relume::transport

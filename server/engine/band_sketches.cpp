@@ -5,16 +5,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace relume::engine {
 namespace {
 
 using transport::kColours;
 using transport::Sketch;
-
-// What may be left out of a lighting, of the norm of its image.
-constexpr double kNegligibleError = 1e-5;
 
 // Adds the columns `column_at(0 … count-1)` of one colour, weighted by `amount_of(i)`.
 template <typename ColumnAt, typename AmountOf, typename Float>
@@ -67,58 +63,18 @@ BandSketches::BandSketches(const Scene& scene, const Sketch& sketch)
       sketch_(&sketch),
       size_(kColours * std::size_t{sketch.rows()}),
       bands_(scene.band_count() * size_),
-      partial_(scene.band_chunks().size() * size_),
-      energies_(scene.band_chunks().size()) {}
+      partial_(scene.band_chunks().size() * size_) {}
 
-double BandSketches::energy_of(std::span<const float> lighting) {
+void BandSketches::set(const LitColumns& lit) {
     const std::span<const BandChunk> chunks = scene_->band_chunks();
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
-        double energy = 0;
-        for (std::size_t place = chunks[chunk].first; place < chunks[chunk].last; ++place) {
-            const std::size_t column = scene_->columns_by_band()[place];
-            for (std::uint32_t c = 0; c < kColours; ++c) {
-                energy += energy_of(lighting, column, c);
-            }
-        }
-        energies_[chunk] = energy;
-    });
-    return std::accumulate(energies_.begin(), energies_.end(), 0.0);
-}
-
-double BandSketches::energy_of(std::span<const float> lighting,
-                               std::size_t column,
-                               std::uint32_t colour) const {
-    const double amount{lighting[colour * scene_->coefficient_count() + column]};
-    return amount * amount * double{scene_->transport().energy(column, colour)};
-}
-
-void BandSketches::set(std::span<const float> lighting) {
-    add_all(lighting, [](std::size_t, std::uint32_t) { return true; });
-}
-
-void BandSketches::set_nearly(std::span<const float> lighting) {
-    const double negligible = kNegligibleError * kNegligibleError * energy_of(lighting) /
-                              static_cast<double>(lighting.size());
-    add_all(lighting, [&](std::size_t column, std::uint32_t colour) {
-        return energy_of(lighting, column, colour) > negligible;
-    });
-}
-
-template <typename Counts>
-void BandSketches::add_all(std::span<const float> lighting, const Counts& counts) {
-    const std::span<const BandChunk> chunks = scene_->band_chunks();
-    const std::size_t count = scene_->coefficient_count();
     const std::size_t rows = sketch_->rows();
     std::fill(partial_.begin(), partial_.end(), 0.0F);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
-        const auto columns = scene_->columns_by_band().subspan(
-            chunks[chunk].first, chunks[chunk].last - chunks[chunk].first);
         for (std::uint32_t c = 0; c < kColours; ++c) {
+            const std::span<const LitColumns::Column> columns = lit.of(chunk, c);
             add_colour(
-                *sketch_, c, columns.size(), [&](std::size_t i) { return columns[i]; },
-                [&](std::size_t i) {
-                    return counts(columns[i], c) ? lighting[c * count + columns[i]] : 0;
-                },
+                *sketch_, c, columns.size(), [&](std::size_t i) { return columns[i].column; },
+                [&](std::size_t i) { return columns[i].amount; },
                 std::span(partial_).subspan(chunk * size_ + c * rows, rows));
         }
     });

@@ -17,14 +17,14 @@ class ErrorEstimate {
   public:
     explicit ErrorEstimate(const Scene& scene);
 
-    // Lighting is planar [3][N]. What does not count of a target is left out, what is shown is
-    // taken whole: it may be far brighter than the next target.
-    void set_target(std::span<const float> lighting) { target_.set_nearly(lighting); }
-    void set_approximation(std::span<const float> lighting) { approximation_.set(lighting); }
+    // A target need hold only what counts of it; what is shown must be whole, for it may be far
+    // brighter than the next target.
+    void set_target(const LitColumns& target) { target_.set(target); }
+    void set_approximation(const LitColumns& shown) { approximation_.set(shown); }
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { approximation_.apply(plan); }
-    // L̃ is now this target.
-    void approximation_is(std::span<const float> target) {
+    // L̃ is now this target, whole.
+    void approximation_is_target(const LitColumns& target) {
         target_.set(target);
         approximation_ = target_;
     }

@@ -16,16 +16,19 @@ constexpr std::size_t kLongestSearched = 4096;
 Guard::Guard(const Scene& scene)
     : scene_(&scene),
       sketch_(&scene.transport().choosing_sketch()),
+      shown_(scene),
       target_(scene, *sketch_),
       approximation_(target_),
       last_target_(target_.size()) {}
 
 const Plan& Guard::decide(const Lighting& lighting,
+                          const LitColumns& lit,
                           Ranking& ranking,
                           const SelectionBudget& budget) {
-    const bool rests = set_target(lighting.target());
+    const bool rests = set_target(lit);
     if (!approximation_known_) {
-        approximation_.set(lighting.approximation());
+        shown_.set(lighting.approximation());
+        approximation_.set(shown_);
         approximation_known_ = true;
     }
     standing_error_ = predicted_error({});
@@ -45,11 +48,11 @@ const Plan& Guard::decide(const Lighting& lighting,
     return candidates_[best_].plan;
 }
 
-bool Guard::set_target(std::span<const float> lighting) {
+bool Guard::set_target(const LitColumns& lit) {
     for (std::size_t r = 0; r < target_.size(); ++r) {
         last_target_[r] = target_.sum(r);
     }
-    target_.set_nearly(lighting);
+    target_.set(lit);
     for (std::size_t r = 0; r < target_.size(); ++r) {
         if (target_.sum(r) != last_target_[r]) {
             return false;
@@ -133,7 +136,7 @@ void Guard::apply(const Plan& plan) {
     }
 }
 
-void Guard::approximation_is(std::span<const float> target) {
+void Guard::approximation_is_target(const LitColumns& target) {
     if (approximation_known_) {
         target_.set(target);
         approximation_ = target_;

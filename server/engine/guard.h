@@ -37,9 +37,10 @@ class Guard {
 
     explicit Guard(const Scene& scene);
 
-    // `ranking` is of this lighting. The best plan; valid until the next call. Of equal
-    // predictions the first wins, increments before resets.
+    // `ranking` and `lit`, what counts of the target, are of this lighting. The best plan;
+    // valid until the next call. Of equal predictions the first wins, increments before resets.
     [[nodiscard]] const Plan& decide(const Lighting& lighting,
+                                     const LitColumns& lit,
                                      Ranking& ranking,
                                      const SelectionBudget& budget);
     // What was weighed by the last decision, to go on first. A candidate that resets is
@@ -53,15 +54,15 @@ class Guard {
 
     // The plan, by whomever it was made, has been carried out on L̃.
     void apply(const Plan& plan);
-    // L̃ is now this target.
-    void approximation_is(std::span<const float> target);
+    // L̃ is now this target, whole.
+    void approximation_is_target(const LitColumns& target);
     // L̃ or L has changed in other ways; costs one more pass at the next decision.
     void forget() { approximation_known_ = false; }
 
   private:
     void propose(std::uint32_t bands_to_reset);
     // True when nothing has changed for the image since the last decision.
-    [[nodiscard]] bool set_target(std::span<const float> lighting);
+    [[nodiscard]] bool set_target(const LitColumns& lit);
     void search_nearby(const Lighting& lighting,
                        const Ranking& ranking,
                        const SelectionBudget& budget);
@@ -73,6 +74,7 @@ class Guard {
 
     const Scene* scene_;
     const transport::Sketch* sketch_;
+    LitColumns shown_;
     BandSketches target_;
     BandSketches approximation_;
     std::vector<double> last_target_;

@@ -3,11 +3,12 @@
 namespace relume::engine {
 
 const Plan& Planner::begin(const Lighting& lighting,
+                           const LitColumns& lit,
                            const wire::Strategy& strategy,
                            const SelectionBudget& budget) {
     ranking_.rank(*scene_, lighting, scene_->weights(strategy.priority));
     if (strategy.method == wire::Method::guarded) {
-        return guard_.decide(lighting, ranking_, budget);
+        return guard_.decide(lighting, lit, ranking_, budget);
     }
     guard_.forget();
     plan_.bands_to_reset = 0;

@@ -15,9 +15,10 @@ class Planner {
   public:
     explicit Planner(const Scene& scene) : scene_(&scene), guard_(scene) {}
 
-    // The first image of a new lighting: the method's resets, then the most important
-    // differences. Valid until the next call.
+    // The first image of a new lighting, of which `lit` is what counts: the method's resets,
+    // then the most important differences. Valid until the next call.
     [[nodiscard]] const Plan& begin(const Lighting& lighting,
+                                    const LitColumns& lit,
                                     const wire::Strategy& strategy,
                                     const SelectionBudget& budget);
     // While the lighting rests: more of what is left.
@@ -27,8 +28,10 @@ class Planner {
 
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { guard_.apply(plan); }
-    // L̃ is now this target.
-    void approximation_is(std::span<const float> target) { guard_.approximation_is(target); }
+    // L̃ is now this target, whole.
+    void approximation_is_target(const LitColumns& target) {
+        guard_.approximation_is_target(target);
+    }
     // L̃ has changed in ways nobody told.
     void approximation_is_unknown() { guard_.forget(); }
 

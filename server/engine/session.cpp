@@ -46,6 +46,7 @@ Session::Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy)
     : scene_(std::move(scene)),
       strategy_(strategy),
       lighting_(*scene_),
+      lit_(*scene_),
       planner_(*scene_),
       images_(*scene_),
       error_(*scene_),
@@ -134,12 +135,14 @@ const Plan& Session::next_plan(const SelectionBudget& budget) {
     }
     lighting_is_new_ = false;
     if (estimates_are_stale_) {
-        error_.set_approximation(lighting_.approximation());
+        lit_.set(lighting_.approximation());
+        error_.set_approximation(lit_);
         planner_.approximation_is_unknown();
         estimates_are_stale_ = false;
     }
-    error_.set_target(lighting_.target());
-    const Plan& plan = planner_.begin(lighting_, strategy_, budget);
+    lit_.set_nearly(lighting_.target());
+    error_.set_target(lit_);
+    const Plan& plan = planner_.begin(lighting_, lit_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
     return plan;
 }
@@ -281,8 +284,9 @@ void Session::full_product_is_done(StepReport& report) {
         estimates_are_stale_ = true;
         report.applied = static_cast<std::uint32_t>(scene_->coefficient_count());
     } else {
-        error_.approximation_is(lighting_.target());
-        planner_.approximation_is(lighting_.target());
+        lit_.set(lighting_.target());
+        error_.approximation_is_target(lit_);
+        planner_.approximation_is_target(lit_);
         report.applied = remaining_;
     }
     lighting_is_new_ = false;

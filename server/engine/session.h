@@ -121,6 +121,7 @@ class Session {
     std::shared_ptr<const Scene> scene_;
     wire::Strategy strategy_;
     Lighting lighting_;
+    LitColumns lit_;  // of what the sketches were last made from
     Planner planner_;
     BandImages images_;
     ErrorEstimate error_;

@@ -23,12 +23,14 @@ class SelectorContestant final : public Contestant {
           priority_(terms.priority),
           selector_(std::move(selector)),
           lighting_(*scene_),
+          lit_(*scene_),
           images_(*scene_),
           error_(*scene_) {}
 
     void set_light(const ImageLight& light) override { lighting_.set_target(light.haar); }
     Step step() override {
-        error_.set_target(lighting_.target());
+        lit_.set_nearly(lighting_.target());
+        error_.set_target(lit_);
         ranking_.rank(*scene_, lighting_, scene_->weights(priority_));
         plan_.bands_to_reset = selector_->bands_to_reset(
             {.scene = *scene_, .lighting = lighting_, .ranking = ranking_, .budget = budget_});
@@ -59,6 +61,7 @@ class SelectorContestant final : public Contestant {
     wire::Priority priority_;
     std::unique_ptr<BandSelector> selector_;
     engine::Lighting lighting_;
+    engine::LitColumns lit_;
     engine::Ranking ranking_;
     engine::Selection selection_;
     engine::Plan plan_;

@@ -58,7 +58,9 @@ TEST(BandSketches, HoldEveryBandOfALighting) {
     for (const transport::Sketch* sketch :
          {&tiny.transport().stating_sketch(), &tiny.transport().choosing_sketch()}) {
         BandSketches bands(scene, *sketch);
-        bands.set(lighting);
+        LitColumns lit(scene);
+        lit.set(lighting);
+        bands.set(lit);
         std::vector<double> total(transport::kColours * std::size_t{sketch->rows()});
         for (std::uint32_t b = 0; b < scene.band_count(); ++b) {
             const auto expected = plain_sketch(scene, *sketch, lighting, b);
@@ -82,8 +84,11 @@ TEST(BandSketches, LeaveOutOnlyWhatDoesNotCount) {
     }
     BandSketches whole(scene, tiny.transport().stating_sketch());
     BandSketches nearly(scene, tiny.transport().stating_sketch());
-    whole.set(lighting);
-    nearly.set_nearly(lighting);
+    LitColumns lit(scene);
+    lit.set(lighting);
+    whole.set(lit);
+    lit.set_nearly(lighting);
+    nearly.set(lit);
     const auto all = sum_of(whole);
     auto left_out = sum_of(nearly);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -100,7 +105,9 @@ TEST(BandSketches, KeepNothingOfALightThatIsGone) {
     const transport::Sketch& sketch = tiny.transport().choosing_sketch();
     const auto lighting = test::random_lighting(8, 2);
     BandSketches bands(scene, sketch);
-    bands.set(lighting);
+    LitColumns lit(scene);
+    lit.set(lighting);
+    bands.set(lit);
     const auto before = sum_of(bands);
     Plan on;
     on.changes = {{.column = 7, .amount = {1e5F, 2e5F, 3e5F}}};

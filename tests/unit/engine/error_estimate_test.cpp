@@ -10,6 +10,12 @@
 namespace relume::engine {
 namespace {
 
+LitColumns lit(const TinyScene& tiny, const std::vector<float>& lighting) {
+    LitColumns columns(*tiny.scene());
+    columns.set(lighting);
+    return columns;
+}
+
 // ‖tint·T·lighting‖ from the dense product.
 double true_norm(const TinyScene& tiny, const std::vector<float>& lighting) {
     auto sums = test::dense_product(tiny.transport(), lighting);
@@ -34,8 +40,8 @@ TEST(ErrorEstimate, IsNearTheTrueErrorForUnseenLighting) {
             approximation[i] = 0;
             difference[i] = target[i];
         }
-        estimate.set_target(target);
-        estimate.set_approximation(approximation);
+        estimate.set_target(lit(tiny, target));
+        estimate.set_approximation(lit(tiny, approximation));
         const double truth = true_norm(tiny, difference) / true_norm(tiny, target);
         EXPECT_NEAR(estimate.relative_l2() / truth, 1, 0.25) << "seed " << seed;
     }
@@ -47,8 +53,8 @@ TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
     const auto target = test::random_lighting(8, 1);
     ErrorEstimate changed(scene);
     ErrorEstimate anew(scene);
-    changed.set_target(target);
-    anew.set_target(target);
+    changed.set_target(lit(tiny, target));
+    anew.set_target(lit(tiny, target));
     std::vector<float> approximation(target.size());
     for (std::size_t j = 0; j < scene.coefficient_count(); j += 3) {
         Plan plan;
@@ -61,7 +67,7 @@ TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
         }
         changed.apply(plan);
     }
-    anew.set_approximation(approximation);
+    anew.set_approximation(lit(tiny, approximation));
     EXPECT_NEAR(changed.relative_l2(), anew.relative_l2(), 1e-5 * anew.relative_l2());
 }
 
@@ -81,14 +87,14 @@ TEST(ErrorEstimate, ForgetsABandThatIsReset) {
     }
     ErrorEstimate reset(scene);
     ErrorEstimate anew(scene);
-    reset.set_target(target);
-    anew.set_target(target);
-    reset.set_approximation(bright);
+    reset.set_target(lit(tiny, target));
+    anew.set_target(lit(tiny, target));
+    reset.set_approximation(lit(tiny, bright));
     EXPECT_GT(reset.relative_l2(), 100);
     Plan plan;
     plan.bands_to_reset = 1U << 1;
     reset.apply(plan);
-    anew.set_approximation(without);
+    anew.set_approximation(lit(tiny, without));
     EXPECT_NEAR(reset.relative_l2(), anew.relative_l2(), 1e-5 * anew.relative_l2());
 }
 
@@ -97,11 +103,11 @@ TEST(ErrorEstimate, KnowsNothingAndBlack) {
     ErrorEstimate estimate(*tiny.scene());
     EXPECT_EQ(estimate.relative_l2(), 0) << "black shown, black wanted";
     const auto light = test::random_lighting(8, 2);
-    estimate.set_target(light);
+    estimate.set_target(lit(tiny, light));
     EXPECT_EQ(estimate.relative_l2(), 1) << "nothing shown yet";
-    estimate.approximation_is(light);
+    estimate.approximation_is_target(lit(tiny, light));
     EXPECT_EQ(estimate.relative_l2(), 0);
-    estimate.set_target(std::vector<float>(light.size()));
+    estimate.set_target(lit(tiny, std::vector<float>(light.size())));
     EXPECT_EQ(estimate.relative_l2(), 1) << "light shown, black wanted";
 }
 

@@ -20,13 +20,15 @@ class GuardTest : public testing::Test {
     TinyScene tiny_{{.width = 64, .height = 64, .channels = 3}};
     const Scene& scene_ = *tiny_.scene();
     Lighting lighting_{scene_};
+    LitColumns lit_{scene_};
     Ranking ranking_;
     Guard guard_{scene_};
 
     const Plan& decide(const std::vector<float>& light, const SelectionBudget& budget) {
         lighting_.set_target(light);
         ranking_.rank(scene_, lighting_, scene_.weights(wire::Priority::benefit));
-        return guard_.decide(lighting_, ranking_, budget);
+        lit_.set_nearly(light);
+        return guard_.decide(lighting_, lit_, ranking_, budget);
     }
     void carry_out(const Plan& plan) {
         lighting_.apply(plan);
@@ -127,7 +129,7 @@ TEST_F(GuardTest, DecidesTheSameAfterForgetting) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const Plan plan = decide(test::random_lighting(8, seed, 1e4F), {40, kAnyBytes});
         forgetful.forget();
-        const Plan again = forgetful.decide(lighting_, ranking_, {40, kAnyBytes});
+        const Plan again = forgetful.decide(lighting_, lit_, ranking_, {40, kAnyBytes});
         EXPECT_EQ(again.bands_to_reset, plan.bands_to_reset);
         ASSERT_EQ(forgetful.candidates().size(), guard_.candidates().size());
         for (std::size_t i = 0; i < guard_.candidates().size(); ++i) {

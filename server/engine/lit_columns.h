@@ -1,0 +1,41 @@
+// The columns of a lighting that count in its image.
+#pragma once
+
+#include "server/engine/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::engine {
+
+// By chunk of a band and colour, in the order of Scene::band_chunks. Not thread-safe.
+class LitColumns {
+  public:
+    struct Column {
+        std::uint32_t column = 0;
+        float amount = 0;
+    };
+
+    explicit LitColumns(const Scene& scene);
+
+    // All columns of lighting, planar [3][N], that are not zero.
+    void set(std::span<const float> lighting);
+    // The same without those that do not count: which each have so little of the image's
+    // energy, Σ_c (L(c,j)·‖T(c,j)‖)², that all together would leave no more than 10⁻⁵ of its
+    // norm were they orthogonal. Most of a light's columns are such.
+    void set_nearly(std::span<const float> lighting);
+
+    [[nodiscard]] std::span<const Column> of(std::size_t chunk, std::uint32_t colour) const;
+
+  private:
+    // Those with (L(c,j)·‖T(c,j)‖)² above this.
+    void take(std::span<const float> lighting, float negligible);
+
+    const Scene* scene_;
+    std::vector<float> norms_;         // of the columns in the image, planar [3][N]
+    std::vector<Column> columns_;      // [3][N], those of a chunk from its first place on
+    std::vector<std::size_t> counts_;  // [chunks][3]
+};
+
+}  // namespace relume::engine
