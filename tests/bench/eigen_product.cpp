@@ -15,22 +15,15 @@ using Planar = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::ColMajor>;
 using Interleaved = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Padded = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-Columns shard_columns(const engine::Scene& scene,
-                      const transport::ShardReader& shard,
-                      std::span<const std::uint32_t> columns) {
-    const std::uint32_t channels = scene.transport().channel_count();
+Columns shard_columns(const transport::ShardReader& shard, const SparseColumns& columns) {
     const auto rows = static_cast<Eigen::Index>(shard.block_count() * kBlockSize);
-    Columns matrix(rows, static_cast<Eigen::Index>(columns.size() * channels));
-    Eigen::Index column = 0;
-    for (const std::uint32_t j : columns) {
-        for (std::uint32_t k = 0; k < channels; ++k, ++column) {
-            const float step = scene.transport().step(j, k);
-            matrix.startVec(column);
-            for_each_value(
-                shard, j, k, [&](std::uint32_t block, std::uint32_t slot, float value) {
-                    matrix.insertBack(block * kBlockSize + slot, column) = step * value;
-                });
-        }
+    Columns matrix(rows, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t position = 0; position < columns.size(); ++position) {
+        const auto column = static_cast<Eigen::Index>(position);
+        matrix.startVec(column);
+        columns.for_each_entry(shard, position, [&](const SparseEntry& entry) {
+            matrix.insertBack(entry.block * kBlockSize + entry.slot, column) = entry.value;
+        });
     }
     matrix.finalize();
     matrix.data().squeeze();
@@ -97,13 +90,13 @@ struct EigenColumns::Shards {
     std::vector<Columns> matrices;
 };
 
-EigenColumns::EigenColumns(const engine::Scene& scene, std::span<const std::uint32_t> columns)
-    : scene_(&scene),
-      index_(columns, scene.transport().channel_count()),
-      shards_(std::make_unique<Shards>()) {
-    for (const auto& shard : scene.transport().shards()) {
-        shards_->matrices.push_back(shard_columns(scene, shard, columns));
-    }
+EigenColumns::EigenColumns(const SparseColumns& columns)
+    : columns_(&columns), shards_(std::make_unique<Shards>()) {
+    const auto& shards = columns.scene().transport().shards();
+    shards_->matrices.resize(shards.size());
+    tbb::parallel_for(std::size_t{0}, shards.size(), [&](std::size_t shard) {
+        shards_->matrices[shard] = shard_columns(shards[shard], columns);
+    });
 }
 
 EigenColumns::~EigenColumns() = default;
@@ -116,6 +109,11 @@ std::size_t EigenColumns::nonzeros() const {
     return static_cast<std::size_t>(count);
 }
 
+std::size_t EigenColumns::bytes() const {
+    const std::size_t begins = shards_->matrices.size() * (columns_->size() + 1);
+    return nonzeros() * (sizeof(float) + sizeof(int)) + begins * sizeof(int);
+}
+
 struct EigenProduct::Image {
     std::variant<std::vector<Planar>, std::vector<Interleaved>, std::vector<Padded>> shards;
 };
@@ -124,13 +122,13 @@ EigenProduct::EigenProduct(const EigenColumns& columns, EigenLayout layout)
     : columns_(&columns), image_(std::make_unique<Image>()) {
     switch (layout) {
         case EigenLayout::planar:
-            image_->shards = black<Planar>(*columns.scene_);
+            image_->shards = black<Planar>(columns.columns_->scene());
             break;
         case EigenLayout::interleaved:
-            image_->shards = black<Interleaved>(*columns.scene_);
+            image_->shards = black<Interleaved>(columns.columns_->scene());
             break;
         case EigenLayout::padded:
-            image_->shards = black<Padded>(*columns.scene_);
+            image_->shards = black<Padded>(columns.columns_->scene());
             break;
     }
 }
@@ -138,12 +136,12 @@ EigenProduct::EigenProduct(const EigenColumns& columns, EigenLayout layout)
 EigenProduct::~EigenProduct() = default;
 
 void EigenProduct::add(std::span<const engine::ColumnChange> changes) {
-    const std::uint32_t channels = columns_->index_.channels();
+    const SparseColumns& index = *columns_->columns_;
     ColumnChoice choice;
     for (const engine::ColumnChange& change : changes) {
-        for (std::uint32_t k = 0; k < channels; ++k) {
-            choice.positions.push_back(columns_->index_.position(change.column) * channels + k);
-            choice.weights.push_back(channel_weights(*columns_->scene_, change, k));
+        for (std::uint32_t k = 0; k < index.channels(); ++k) {
+            choice.positions.push_back(index.position(change.column) + k);
+            choice.weights.push_back(channel_weights(index.scene(), change, k));
         }
     }
     std::visit(
@@ -157,7 +155,7 @@ void EigenProduct::add(std::span<const engine::ColumnChange> changes) {
 
 std::vector<float> EigenProduct::sums() const {
     std::vector<float> sums;
-    sums.reserve(columns_->scene_->sum_count());
+    sums.reserve(columns_->columns_->scene().sum_count());
     std::visit(
         [&](const auto& shards) {
             for (const auto& image : shards) {

@@ -24,7 +24,9 @@ inline constexpr EigenLayout kEigenLayouts[] = {EigenLayout::planar, EigenLayout
 // this product on one). Immutable.
 class EigenColumns {
   public:
-    EigenColumns(const engine::Scene& scene, std::span<const std::uint32_t> columns);
+    // Keeps a reference. Holds values as they were before they were rounded, but only those
+    // that the rounding left: Eigen is not made to multiply what a narrower format drops.
+    explicit EigenColumns(const SparseColumns& columns);
     EigenColumns(const EigenColumns&) = delete;
     EigenColumns& operator=(const EigenColumns&) = delete;
     EigenColumns(EigenColumns&&) = delete;
@@ -32,13 +34,14 @@ class EigenColumns {
     ~EigenColumns();
 
     [[nodiscard]] std::size_t nonzeros() const;
+    // Values, rows and where columns begin.
+    [[nodiscard]] std::size_t bytes() const;
 
   private:
     friend class EigenProduct;
     struct Shards;
 
-    const engine::Scene* scene_;
-    ColumnIndex index_;
+    const SparseColumns* columns_;
     std::unique_ptr<Shards> shards_;
 };
 
@@ -55,7 +58,7 @@ class EigenProduct {
     ~EigenProduct();
 
     void add(std::span<const engine::ColumnChange> changes);
-    // [blocks][3][256], in the basis of the blocks, before tint.
+    // [blocks][3][256], in the basis of the columns, before tint.
     [[nodiscard]] std::vector<float> sums() const;
 
   private:

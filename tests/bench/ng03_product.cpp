@@ -35,69 +35,73 @@ void append_digits(std::int32_t value,
 
 }  // namespace
 
-Ng03Columns::Column Ng03Columns::encode(const transport::ShardReader& shard,
-                                        std::uint32_t column,
-                                        std::uint32_t channel,
-                                        float step) {
-    Column encoded;
+void Ng03Columns::append(const transport::ShardReader& reader,
+                         std::size_t position,
+                         Shard& shard) const {
     std::vector<std::vector<Entry>> digits;
     std::uint32_t current = 0;
     const auto flush = [&] {
-        float scale = step;
+        float scale = columns_->scale(position);
         for (std::vector<Entry>& entries : digits) {
             if (!entries.empty()) {
-                encoded.runs.push_back(
+                shard.runs.push_back(
                     {current, static_cast<std::uint32_t>(entries.size()), scale});
                 for (const Entry& entry : entries) {
-                    encoded.slots.push_back(entry.slot);
-                    encoded.values.push_back(entry.value);
+                    shard.slots.push_back(entry.slot);
+                    shard.values.push_back(entry.value);
                 }
             }
             entries.clear();
             scale *= kDigit;
         }
     };
-    for_each_value(
-        shard, column, channel, [&](std::uint32_t block, std::uint32_t slot, float value) {
-            if (block != current) {
-                flush();
-                current = block;
-            }
-            append_digits(static_cast<std::int32_t>(std::lround(value)), slot, digits);
-        });
+    columns_->for_each_entry(reader, position, [&](const SparseEntry& entry) {
+        if (entry.block != current) {
+            flush();
+            current = entry.block;
+        }
+        append_digits(entry.integer, entry.slot, digits);
+    });
     flush();
-    return encoded;
+    shard.first_runs.push_back(shard.runs.size());
+    shard.first_entries.push_back(shard.values.size());
 }
 
-Ng03Columns::Ng03Columns(const engine::Scene& scene, std::span<const std::uint32_t> columns)
-    : scene_(&scene), index_(columns, scene.transport().channel_count()) {
-    for (const auto& reader : scene.transport().shards()) {
-        Shard shard{.first_block = reader.first_block(),
-                    .block_count = reader.block_count(),
-                    .columns = {}};
-        for (const std::uint32_t j : columns) {
-            for (std::uint32_t k = 0; k < index_.channels(); ++k) {
-                Column column = encode(reader, j, k, scene.transport().step(j, k));
-                entries_ += column.values.size();
-                for (const Run& run : column.runs) {
-                    extra_entries_ += run.scale > scene.transport().step(j, k) ? run.count : 0;
-                }
-                shard.columns.push_back(std::move(column));
-            }
+Ng03Columns::Ng03Columns(const SparseColumns& columns)
+    : columns_(&columns), shards_(columns.scene().transport().shards().size()) {
+    tbb::parallel_for(std::size_t{0}, shards_.size(), [&](std::size_t s) {
+        for (std::size_t position = 0; position < columns.size(); ++position) {
+            append(columns.scene().transport().shards()[s], position, shards_[s]);
         }
-        shards_.push_back(std::move(shard));
+    });
+    for (const Shard& shard : shards_) {
+        count(shard);
+    }
+}
+
+void Ng03Columns::count(const Shard& shard) {
+    entries_ += shard.values.size();
+    bytes_ += shard.runs.size() * sizeof(Run) + shard.slots.size() + shard.values.size();
+    for (std::size_t position = 0; position < columns_->size(); ++position) {
+        for (std::size_t r = shard.first_runs[position]; r < shard.first_runs[position + 1];
+             ++r) {
+            const Run& run = shard.runs[r];
+            extra_entries_ += run.scale > columns_->scale(position) ? run.count : 0;
+        }
     }
 }
 
 Ng03Product::Ng03Product(const Ng03Columns& columns)
-    : columns_(&columns), image_(columns.scene_->sum_count()) {}
+    : columns_(&columns), image_(columns.columns_->scene().sum_count()) {}
 
-void Ng03Product::add_column(const Ng03Columns::Column& column,
+void Ng03Product::add_column(const Ng03Columns::Shard& shard,
+                             std::size_t position,
                              const Weights& weights,
                              float* image) {
-    const std::uint8_t* slots = column.slots.data();
-    const std::int8_t* values = column.values.data();
-    for (const Ng03Columns::Run& run : column.runs) {
+    const std::uint8_t* slots = shard.slots.data() + shard.first_entries[position];
+    const std::int8_t* values = shard.values.data() + shard.first_entries[position];
+    for (std::size_t r = shard.first_runs[position]; r < shard.first_runs[position + 1]; ++r) {
+        const Ng03Columns::Run& run = shard.runs[r];
         const float red = weights[0] * run.scale;
         const float green = weights[1] * run.scale;
         const float blue = weights[2] * run.scale;
@@ -115,15 +119,15 @@ void Ng03Product::add_column(const Ng03Columns::Column& column,
 }
 
 void Ng03Product::add(std::span<const engine::ColumnChange> changes) {
-    const std::uint32_t channels = columns_->index_.channels();
-    tbb::parallel_for(std::size_t{0}, columns_->shards_.size(), [&](std::size_t s) {
-        const Ng03Columns::Shard& shard = columns_->shards_[s];
-        float* image = &image_[std::size_t{shard.first_block} * kBlockSize * kColours];
+    const SparseColumns& index = *columns_->columns_;
+    const auto& shards = index.scene().transport().shards();
+    tbb::parallel_for(std::size_t{0}, shards.size(), [&](std::size_t s) {
+        float* image = &image_[std::size_t{shards[s].first_block()} * kBlockSize * kColours];
         for (const engine::ColumnChange& change : changes) {
-            const std::size_t position = columns_->index_.position(change.column) * channels;
-            for (std::uint32_t k = 0; k < channels; ++k) {
-                add_column(shard.columns[position + k],
-                           channel_weights(*columns_->scene_, change, k), image);
+            const std::size_t position = index.position(change.column);
+            for (std::uint32_t k = 0; k < index.channels(); ++k) {
+                add_column(columns_->shards_[s], position + k,
+                           channel_weights(index.scene(), change, k), image);
             }
         }
     });

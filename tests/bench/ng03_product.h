@@ -9,16 +9,19 @@
 namespace relume::bench {
 
 // Per column and block a scale and the non-zeros, a byte for the value and a byte for the
-// place, added up one after the other. To hold the very transport that the engine reads, a
-// value beyond 8 bits is kept as two or more of them under scales a factor of 256 apart.
+// place, added up one after the other. By pixel that is all. To hold the very integers that the
+// engine reads, one beyond 8 bits is kept as two or more of them under scales a factor of 256
+// apart.
 class Ng03Columns {
   public:
-    Ng03Columns(const engine::Scene& scene, std::span<const std::uint32_t> columns);
+    // Keeps a reference.
+    explicit Ng03Columns(const SparseColumns& columns);
 
-    // Of the chosen columns: entries stored, and how many of them a single byte would not do
-    // without.
+    // Entries stored, and how many of them a single byte would not do without.
     [[nodiscard]] std::uint64_t entries() const { return entries_; }
     [[nodiscard]] std::uint64_t extra_entries() const { return extra_entries_; }
+    // Values, indices, scales and where they belong.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:
     friend class Ng03Product;
@@ -28,27 +31,24 @@ class Ng03Columns {
         std::uint32_t count = 0;
         float scale = 0;
     };
-    struct Column {
+    // One column after the other, so that they lie close whatever the heap looked like before.
+    struct Shard {
         std::vector<Run> runs;
         std::vector<std::uint8_t> slots;
         std::vector<std::int8_t> values;
-    };
-    struct Shard {
-        std::uint32_t first_block = 0;
-        std::uint32_t block_count = 0;
-        std::vector<Column> columns;
+        // Of every position, and the end.
+        std::vector<std::size_t> first_runs{0};
+        std::vector<std::size_t> first_entries{0};
     };
 
-    static Column encode(const transport::ShardReader& shard,
-                         std::uint32_t column,
-                         std::uint32_t channel,
-                         float step);
+    void append(const transport::ShardReader& reader, std::size_t position, Shard& shard) const;
+    void count(const Shard& shard);
 
-    const engine::Scene* scene_;
-    ColumnIndex index_;
+    const SparseColumns* columns_;
     std::vector<Shard> shards_;
     std::uint64_t entries_ = 0;
     std::uint64_t extra_entries_ = 0;
+    std::uint64_t bytes_ = 0;
 };
 
 // An image that changes are added to. A shard's part of it stays in the second-level cache
@@ -58,13 +58,14 @@ class Ng03Product {
     explicit Ng03Product(const Ng03Columns& columns);
 
     void add(std::span<const engine::ColumnChange> changes);
-    // [blocks][3][256], in the basis of the blocks, before tint.
+    // [blocks][3][256], in the basis of the columns, before tint.
     [[nodiscard]] std::vector<float> sums() const;
 
   private:
     using Weights = std::array<float, transport::kColours>;
 
-    static void add_column(const Ng03Columns::Column& column,
+    static void add_column(const Ng03Columns::Shard& shard,
+                           std::size_t position,
                            const Weights& weights,
                            float* image);
 

@@ -2,6 +2,7 @@
 
 #include "precompute/bake/block_encoder.h"
 #include "protocol/transport/receiver_basis.h"
+#include "tests/bench/sparse_columns.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
@@ -126,7 +127,6 @@ StoredTile store_tile_as_ng03(const FloatTiles& tiles,
                               const FloatTile& tile,
                               const TestLights& lights,
                               std::span<const float> range) {
-    constexpr float kLevels = 127;
     constexpr std::uint64_t kEntryBytes = 2;
     const std::uint32_t channels = tile.rows.channels();
     StoredTile stored;
@@ -138,7 +138,7 @@ StoredTile store_tile_as_ng03(const FloatTiles& tiles,
         for (std::uint32_t k = 0; k < channels; ++k) {
             const float* row = tile.rows.row(slot, k);
             for (std::size_t j = 0; j < tile.rows.columns(); ++j) {
-                const float step = range[j * channels + k] / kLevels;
+                const float step = range[j * channels + k] / kNg03Levels;
                 const float level = row[j] == 0 ? 0.0F : std::round(row[j] / step);
                 if (level == 0) {
                     continue;

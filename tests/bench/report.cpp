@@ -57,14 +57,14 @@ std::string line_of(const Figure& figure, const Results& results) {
     const auto value = results.value(figure.key);
     if (!value) {
         const auto why = results.omissions().find(figure.key);
-        return fmt::format("{:<26} {:>10} {:>9}  {:<7} {}\n", figure.key, "-",
+        return fmt::format("{:<36} {:>10} {:>9}  {:<7} {}\n", figure.key, "-",
                            target_text(figure), "-",
                            why == results.omissions().end() ? "" : why->second);
     }
     const char* verdict = figure.aim == Aim::reported ? "-"
                           : figure.reached(*value)    ? "met"
                                                       : "missed";
-    return fmt::format("{:<26} {:>10.4g} {:>9}  {:<7} {}\n", figure.key, *value,
+    return fmt::format("{:<36} {:>10.4g} {:>9}  {:<7} {}\n", figure.key, *value,
                        target_text(figure), verdict, figure.meaning);
 }
 
@@ -93,7 +93,7 @@ std::string table_report(Workbench& workbench, const Results& results) {
             "memory is read at {:.1f} GB/s by {} thread(s)\n",
             context.at(fmt::format("read_gb_per_s_{}t", threads)).get<double>(), threads);
     }
-    table += fmt::format("\n{:<26} {:>10} {:>9}  {:<7} {}\n", "figure", "value", "target", "",
+    table += fmt::format("\n{:<36} {:>10} {:>9}  {:<7} {}\n", "figure", "value", "target", "",
                          "what it is");
     for (const FigureGroup& group : figure_groups()) {
         for (const Figure& figure : group.figures) {
