@@ -1,10 +1,12 @@
 // What a pixel that looks past the scene sees: EnvironmentMap::radiance.
 #include "server/light/environment_map.h"
+#include "server/light/look_kernel.h"
 #include "server/light/map_geometry.h"
 #include "server/light/padded_cubemap.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -67,19 +69,6 @@ Imath::V3f texel_at(Layout layout, const Level& level, std::uint32_t face, int x
     return stored_texel(level, face, x, y);
 }
 
-// Between two texels a row and two rows; `texel` is the upper left one of four that lie inside.
-Imath::V3f mix_inside(const float* texel, std::size_t row_floats, float fx, float fy) {
-    // The fourth number is the next texel's and not used: four at a time are a vector.
-    std::array<float, 4> mixed;
-    for (std::size_t c = 0; c < mixed.size(); ++c) {
-        const float* lower = texel + row_floats;
-        const float along_upper = texel[c] * (1 - fx) + texel[c + 3] * fx;
-        const float along_lower = lower[c] * (1 - fx) + lower[c + 3] * fx;
-        mixed[c] = along_upper * (1 - fy) + along_lower * fy;
-    }
-    return {mixed[0], mixed[1], mixed[2]};
-}
-
 Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     const float x = point.x * static_cast<float>(level.width) - 0.5F;
     const float y = point.y * static_cast<float>(level.height) - 0.5F;
@@ -89,15 +78,6 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     const float fy = y - top;
     const int ix = static_cast<int>(left);
     const int iy = static_cast<int>(top);
-    // One texel more than is needed to the right, for the fourth number.
-    if (ix >= 0 && iy >= 0 && ix + 2 < static_cast<int>(level.width) &&
-        iy + 1 < static_cast<int>(level.height)) {
-        const std::size_t row_floats = std::size_t{3} * level.width;
-        const std::size_t row =
-            std::size_t{point.face} * level.height + static_cast<std::size_t>(iy);
-        return mix_inside(&level.rgb[row * row_floats + 3 * static_cast<std::size_t>(ix)],
-                          row_floats, fx, fy);
-    }
     const auto texel = [&](int dx, int dy) {
         return texel_at(layout, level, point.face, ix + dx, iy + dy);
     };
@@ -106,30 +86,9 @@ Imath::V3f bilinear(Layout layout, const Level& level, const MapPoint& point) {
     return upper * (1 - fy) + lower * fy;
 }
 
-// Pixels asked for before their turn: a turned row crosses the map at any slope, which no
-// prefetcher of the processor follows.
-constexpr std::size_t kLooksAhead = 8;
-void prefetch(const Level& level, const MapPoint& point) {
-    const auto place = [](float part, std::uint32_t count) {
-        const float at = part * static_cast<float>(count) - 0.5F;
-        return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
-    };
-    const std::size_t row =
-        std::size_t{point.face} * level.height + place(point.y, level.height);
-    const float* texel = &level.rgb[3 * (row * level.width + place(point.x, level.width))];
-    __builtin_prefetch(texel);
-    __builtin_prefetch(texel + std::size_t{3} * level.width);
-}
-
 // Towards the poles the texels of a lat-long map become narrow, and one pixel spans many of
 // them side by side.
-Imath::V3f lat_long_lookup(const Level& level,
-                           const MapPoint& point,
-                           float cos_latitude,
-                           float footprint_side) {
-    const float full_turn = 2 * std::numbers::pi_v<float>;
-    const float span =
-        std::min(1.0F, footprint_side / std::max(full_turn * cos_latitude, 1e-6F));
+Imath::V3f lat_long_lookup(const Level& level, const MapPoint& point, float span) {
     const float texels = span * static_cast<float>(level.width);
     const int taps = std::clamp(static_cast<int>(std::ceil(texels)), 1, kMaxTapsAtPole);
     if (taps == 1) {
@@ -162,19 +121,20 @@ LevelBlend blend_for(float wanted_level, std::size_t level_count) {
 
 }  // namespace
 
-struct EnvironmentMap::LookPoints {
-    LatLongPoints places;
-    std::array<std::uint32_t, kLooksPerRun> faces{};
-};
-
 void EnvironmentMap::find_points(const LookDirections& directions,
-                                 std::size_t count,
+                                 std::span<const float> footprints_sr,
                                  LookPoints& points) const {
     if (layout_ == Layout::lat_long) {
-        lat_long_points(directions, count, points.places);
+        constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
+        lat_long_points(directions, footprints_sr.size(), points.places);
+        for (std::size_t i = 0; i < footprints_sr.size(); ++i) {
+            const float around = std::max(kFullTurn * points.places.cos_latitude[i], 1e-6F);
+            points.spans[i] =
+                std::min(1.0F, std::sqrt(std::max(footprints_sr[i], 0.0F)) / around);
+        }
         return;
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < footprints_sr.size(); ++i) {
         const MapPoint point = map_point_from_direction(
             layout_, {directions.x[i], directions.y[i], directions.z[i]});
         points.faces[i] = point.face;
@@ -187,35 +147,49 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
                                std::span<const float> footprints_sr,
                                std::span<Imath::V3f> radiances) const {
     LookPoints points;
-    find_points(source_directions, radiances.size(), points);
-    LookNumbers levels;
+    find_points(source_directions, footprints_sr, points);
+    LookNumbers wanted;
     footprint_levels(footprints_sr, texel_side_radians(layout_, levels_.front().height),
-                     levels);
-    const auto point_at = [&](std::size_t i) {
-        return MapPoint{
-            .face = points.faces[i], .x = points.places.x[i], .y = points.places.y[i]};
-    };
+                     wanted);
+    std::array<LevelBlend, kLooksPerRun> blends;
+    std::uint32_t levels_seen = 0;
     for (std::size_t i = 0; i < radiances.size(); ++i) {
-        const std::size_t ahead = std::min(i + kLooksAhead, radiances.size() - 1);
-        prefetch(levels_[blend_for(levels[ahead], levels_.size()).finer], point_at(ahead));
-        const MapPoint point = point_at(i);
-        if (footprints_sr[i] <= 0) {
-            radiances[i] = bilinear(layout_, levels_.front(), point);
+        blends[i] = footprints_sr[i] > 0 ? blend_for(wanted[i], levels_.size()) : LevelBlend{};
+        levels_seen |= std::uint32_t{1} << blends[i].finer;
+        levels_seen |= (blends[i].coarser_share > 0 ? std::uint32_t{2} : 0U) << blends[i].finer;
+    }
+    std::fill(radiances.begin(), radiances.end(), Imath::V3f(0));
+    for (; levels_seen != 0; levels_seen &= levels_seen - 1) {
+        const auto level = static_cast<std::size_t>(std::countr_zero(levels_seen));
+        LookNumbers weights;
+        for (std::size_t i = 0; i < radiances.size(); ++i) {
+            const LevelBlend& blend = blends[i];
+            weights[i] = blend.finer == level       ? 1 - blend.coarser_share
+                         : blend.finer + 1 == level ? blend.coarser_share
+                                                    : 0;
+        }
+        add_level(levels_[level], points, weights, radiances);
+    }
+}
+
+void EnvironmentMap::add_level(const Level& level,
+                               const LookPoints& points,
+                               const LookNumbers& weights,
+                               std::span<Imath::V3f> radiances) const {
+    const LookLevel texels{
+        .rgb = level.rgb.data(), .width = level.width, .height = level.height};
+    LookTaps taps;
+    find_taps(texels, points, radiances.size(), taps);
+    add_taps(texels, taps, weights, radiances);
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        if (taps.offsets[i] != LookTaps::kNotInside || weights[i] == 0) {
             continue;
         }
-        const float footprint_side = std::sqrt(footprints_sr[i]);
-        const LevelBlend blend = blend_for(levels[i], levels_.size());
-        const auto lookup = [&](const Level& at) {
-            return layout_ == Layout::lat_long
-                       ? lat_long_lookup(at, point, points.places.cos_latitude[i],
-                                         footprint_side)
-                       : bilinear(layout_, at, point);
-        };
-        radiances[i] = lookup(levels_[blend.finer]);
-        if (blend.coarser_share > 0) {
-            radiances[i] = radiances[i] * (1 - blend.coarser_share) +
-                           lookup(levels_[blend.finer + 1]) * blend.coarser_share;
-        }
+        const MapPoint point{
+            .face = points.faces[i], .x = points.places.x[i], .y = points.places.y[i]};
+        radiances[i] += weights[i] * (layout_ == Layout::lat_long
+                                          ? lat_long_lookup(level, point, points.spans[i])
+                                          : bilinear(layout_, level, point));
     }
 }
 

@@ -13,6 +13,8 @@
 
 namespace relume::light {
 
+struct LookPoints;
+
 inline constexpr std::uint32_t kMaxMapSide = 16384;
 inline constexpr std::size_t kMaxMapTexels = std::size_t{16384} * 8192;
 // Brighter texels would overflow the sums of the relighting that follows.
@@ -67,10 +69,14 @@ class EnvironmentMap {
     [[nodiscard]] Imath::V3d total_energy() const;
 
   private:
-    struct LookPoints;
     void find_points(const LookDirections& directions,
-                     std::size_t count,
+                     std::span<const float> footprints_sr,
                      LookPoints& points) const;
+    // Of one level: its share of what is seen, by weight.
+    void add_level(const Level& level,
+                   const LookPoints& points,
+                   const LookNumbers& weights,
+                   std::span<Imath::V3f> radiances) const;
 
     std::uint32_t width_;
     std::uint32_t height_;

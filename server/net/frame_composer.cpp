@@ -74,12 +74,14 @@ void FrameComposer::set_background(const wire::Background& background,
 void FrameComposer::compose(const engine::Session& session) {
     session.write_image(rgb_);
     const std::span<const SkyPixel> pixels = sky_.pixels();
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        float* const rgb = &rgb_[std::size_t{3} * pixels[i].index];
-        rgb[0] += background_[i].x;
-        rgb[1] += background_[i].y;
-        rgb[2] += background_[i].z;
-    }
+    for_ranges(pixels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            float* const rgb = &rgb_[std::size_t{3} * pixels[i].index];
+            rgb[0] += background_[i].x;
+            rgb[1] += background_[i].y;
+            rgb[2] += background_[i].z;
+        }
+    });
 }
 
 void FrameComposer::write_codes(const DisplayTable& table,
