@@ -236,9 +236,11 @@ HWY_INLINE void prefetch_samples(const float* texels,
                                  const SampleLine (&lines)[kLines],
                                  std::uint32_t column) {
     for (const SampleLine& line : lines) {
-        const float* texel = texels + line.offset[column * kSamplesPerLine];
-        __builtin_prefetch(texel);
-        __builtin_prefetch(texel + below);
+        for (std::uint32_t k = 0; k < kSamplesPerLine; ++k) {
+            const float* texel = texels + line.offset[column * kSamplesPerLine + k];
+            __builtin_prefetch(texel);
+            __builtin_prefetch(texel + below);
+        }
     }
 }
 
