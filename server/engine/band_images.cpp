@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace relume::engine {
 namespace {
@@ -90,13 +91,21 @@ void BandImages::update_together(std::span<const Update> updates) {
 }
 
 std::uint32_t BandImages::begin_update(const Update& update) {
+    const bool all_are_known = std::none_of(drift_.begin(), drift_.end(),
+                                            [](const Drift& d) { return d.is_unknown(); });
+    total_is_resummed_ = update.bands_to_clear != 0 && !all_are_known;
+    const double norm = total_norm();
+    total_squared_norms_ += std::popcount(update.bands_to_clear) * norm * norm;
+    if (total_is_resummed_ || update.bands_to_clear == band_bit(scene_->band_count()) - 1) {
+        total_squared_norms_ = 0;
+    }
     std::uint32_t bands_to_measure = 0;
     for (std::uint32_t band = 0; band < drift_.size(); ++band) {
         const auto changes = changes_of_band(update.changes, scene_->bands(), band);
         if (has_band(update.bands_to_clear, band)) {
             drift_[band] = {};
         }
-        const bool is_unknown = drift_[band].updates_since == ~0U;
+        const bool is_unknown = drift_[band].is_unknown();
         const bool is_loose =
             !changes.empty() && drift_[band].add(norm_of(changes), changes.size());
         bands_to_measure |= (is_unknown || is_loose ? 1U : 0U) << band;
@@ -106,7 +115,6 @@ std::uint32_t BandImages::begin_update(const Update& update) {
 
 void BandImages::end_update(const Update& update, std::uint32_t bands_measured) {
     unsigned additions = 0;
-    double total_norm = 0;  // not less than the total's
     for (std::uint32_t band = 0; band < drift_.size(); ++band) {
         Drift& drift = drift_[band];
         if (has_band(bands_measured, band)) {
@@ -117,11 +125,15 @@ void BandImages::end_update(const Update& update, std::uint32_t bands_measured) 
             drift.update_is_done();
             ++additions;
         }
-        total_norm += drift.norm;
     }
-    total_squared_norms_ = update.bands_to_clear != 0
-                               ? 0
-                               : total_squared_norms_ + additions * total_norm * total_norm;
+    if (!total_is_resummed_) {
+        total_squared_norms_ += additions * total_norm() * total_norm();
+    }
+}
+
+double BandImages::total_norm() const {
+    return std::accumulate(drift_.begin(), drift_.end(), 0.0,
+                           [](double sum, const Drift& drift) { return sum + drift.norm; });
 }
 
 void BandImages::update_shard(std::size_t shard,
@@ -139,24 +151,23 @@ void BandImages::update_bands(std::size_t shard, const Update& update) {
     const transport::ShardReader& reader = scene_->transport().shards()[shard];
     const std::uint32_t first = reader.first_block();
     thread_local std::vector<WeightedSegment> segments;
-    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
-        if (has_band(update.bands_to_clear, band)) {
-            for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
-                clear_band(first + b, band);
-            }
+    for_each_bit(update.bands_to_clear, [&](std::uint32_t band) {
+        for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
+            remove_band(first + b, band);
         }
+    });
+    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
         const auto of_band = changes_of_band(update.changes, scene_->bands(), band);
         if (of_band.empty()) {
             continue;
         }
         for_each_bit(gather_segments(scene_->transport(), shard, of_band, segments),
                      [&](std::uint32_t b) { occupied_[first + b] |= band_bit(band); });
-        accumulate_segments(
-            segments, reader.block_count(),
-            {.sums = sums_of(bands_[band], first),
-             .total = update.bands_to_clear == 0 ? sums_of(total_, first) : nullptr});
+        accumulate_segments(segments, reader.block_count(),
+                            {.sums = sums_of(bands_[band], first),
+                             .total = total_is_resummed_ ? nullptr : sums_of(total_, first)});
     }
-    for (std::uint32_t b = 0; update.bands_to_clear != 0 && b < reader.block_count(); ++b) {
+    for (std::uint32_t b = 0; total_is_resummed_ && b < reader.block_count(); ++b) {
         sum_bands(first + b);
     }
 }
@@ -209,6 +220,20 @@ void BandImages::clear_band(std::uint32_t block, std::uint32_t band) {
         std::fill_n(sums_of(bands_[band], block), kSumsPerBlock, 0.0F);
         occupied_[block] &= ~band_bit(band);
     }
+}
+
+void BandImages::remove_band(std::uint32_t block, std::uint32_t band) {
+    if (!has_band(occupied_[block], band)) {
+        return;
+    }
+    float* sums = sums_of(bands_[band], block);
+    float* total = sums_of(total_, block);
+    const bool is_the_last = occupied_[block] == band_bit(band);
+    for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
+        total[i] = is_the_last ? 0.0F : total[i] - sums[i];
+        sums[i] = 0;
+    }
+    occupied_[block] &= ~band_bit(band);
 }
 
 void BandImages::measure_energy(std::size_t shard, std::uint32_t band) {

@@ -23,8 +23,8 @@ class BandImages {
     explicit BandImages(const Scene& scene);
 
     // Sets the bands of the mask to zero, adds the changes (ordered by band), and brings the
-    // total up to date: by adding when no band was reset, by summing the bands anew where one
-    // was, so that nothing stays behind of what the band held [DESIGN §7.4].
+    // total up to date, by adding and taking away. What that leaves behind of what a band held
+    // is part of rounding_error(); nothing is left where all bands were reset.
     void update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes);
 
     [[nodiscard]] std::span<const float> total() const { return total_; }
@@ -73,6 +73,7 @@ class BandImages {
 
         // Made from nothing, nobody knows how large.
         [[nodiscard]] static Drift of_unknown_norm() { return {.updates_since = ~0U}; }
+        [[nodiscard]] bool is_unknown() const { return updates_since == ~0U; }
         // An update of so many columns adds so much at most; whether the norm must be measured
         // after it.
         bool add(double norm_of_changes, std::size_t changes);
@@ -89,8 +90,12 @@ class BandImages {
     void update_bands(std::size_t shard, const Update& update);
     static void rebuild_block(std::uint32_t block, std::span<const Rebuild> rebuilds);
     void clear_band(std::uint32_t block, std::uint32_t band);
+    // The same, and from the total.
+    void remove_band(std::uint32_t block, std::uint32_t band);
     void measure_energy(std::size_t shard, std::uint32_t band);
     void sum_bands(std::uint32_t block);
+    // Not less than the total's.
+    [[nodiscard]] double total_norm() const;
     [[nodiscard]] double measured_norm(std::uint32_t band) const;
     [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
     // Sums of a block and, as they lie one after the other, of those that follow.
@@ -102,6 +107,9 @@ class BandImages {
     std::vector<Drift> drift_;  // [bands]
     // Σ_updates of a band ‖total‖², since the bands were summed.
     double total_squared_norms_ = 0;
+    // In the update under way: a band is reset of which nobody knows how much taking it away
+    // would leave behind.
+    bool total_is_resummed_ = false;
     std::vector<std::uint32_t> occupied_;  // [blocks], bands that are not zero all over
     std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
 };
