@@ -10,6 +10,10 @@ using Clock = std::chrono::steady_clock;
 [[nodiscard]] inline double milliseconds(Clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
+[[nodiscard]] inline Clock::duration from_milliseconds(double duration) {
+    return std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double, std::milli>(duration));
+}
 [[nodiscard]] inline double seconds(Clock::duration duration) {
     return std::chrono::duration<double>(duration).count();
 }

@@ -365,9 +365,11 @@ void Room::queue_next_slice_locked() {
         threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
                                  untaken_edit_.value_or(Clock::now()));
     } else if (!at_rest_) {
+        // To relight it and to encode it: both would keep the next edit's image waiting.
+        const Clock::duration work = slice_took_ + from_milliseconds(encode_ms_);
         const Clock::time_point now = Clock::now();
         threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
-                                       rhythm_.time_for(slice_took_, now) - now);
+                                       rhythm_.time_for(work, now) - now);
     } else if (!settled_frame_ && !encoding_) {
         threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
                                        last_edit_ + options_.settle_delay - Clock::now());
