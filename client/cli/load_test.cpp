@@ -3,11 +3,15 @@
 #include "client/cli/session.h"
 #include "client/cli/statistics.h"
 
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
+#include <functional>
 #include <map>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -20,25 +24,63 @@ constexpr double kDegreesPerEdit = 1.5;
 // After the last edit, for its image to come.
 constexpr std::chrono::seconds kGrace{2};
 
+// For a session to open and show its first image, beside all the others.
+constexpr std::chrono::seconds kLongestOpening{120};
+
+Clock::duration from_seconds(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+// Where visitors wait for each other, so that what is measured is dragging and not opening.
+// Safe to share between threads.
+class StartingLine {
+  public:
+    StartingLine(std::size_t count, std::function<void()> on_all)
+        : missing_(count), on_all_(std::move(on_all)) {}
+
+    void arrive() {
+        if (--missing_ == 0) {
+            on_all_();
+        }
+    }
+
+  private:
+    std::atomic<std::size_t> missing_;
+    const std::function<void()> on_all_;
+};
+
 // One simulated person. Everything in it happens on the session's strand.
 class Visitor {
   public:
     Visitor(asio::io_context& io,
             const LoadOptions& options,
             SessionOptions session,
-            bool drags)
+            bool drags,
+            StartingLine& line)
         : options_(options),
           drags_(drags),
+          line_(line),
           session_(io, std::move(session), listener()),
           beat_(session_.executor()),
           end_(session_.executor()) {}
 
-    void start(Clock::duration delay) {
-        end_.expires_after(delay);
-        end_.async_wait([this](const boost::system::error_code& error) {
-            if (!error) {
-                arm_end();
-                session_.open();
+    void open() {
+        opened_at_ = Clock::now();
+        end_by(opened_at_ + kLongestOpening);
+        session_.open();
+    }
+
+    // Everybody is there; the first edit comes after a delay.
+    void go(Clock::duration delay) {
+        asio::post(session_.executor(), [this, delay] {
+            if (has_ended_) {
+                return;
+            }
+            next_edit_ = Clock::now() + delay;
+            last_edit_by_ = next_edit_ + from_seconds(options_.seconds);
+            end_by(last_edit_by_ + kGrace);
+            if (drags_) {
+                drag();
             }
         });
     }
@@ -50,12 +92,13 @@ class Visitor {
     std::uint64_t bytes = 0;
     bool opened = false;
     std::vector<double> edit_to_image_ms;
+    std::optional<double> first_image_ms;  // since it began to open
     std::map<std::string, std::size_t> errors;
     std::string early_end;  // empty when it lasted
 
   private:
     SessionListener listener() {
-        return {.on_snapshot = [this](const wire::Snapshot&) { begin(); },
+        return {.on_snapshot = [this](const wire::Snapshot&) { joined(); },
                 .on_change = [](const wire::Change&) {},
                 .on_error =
                     [this](const wire::ErrorMessage& e) {
@@ -65,25 +108,28 @@ class Visitor {
                 .on_end = [this](const SessionEnd& e) { ended(e); }};
     }
 
-    void arm_end() {
-        const auto seconds = std::chrono::duration_cast<Clock::duration>(
-            std::chrono::duration<double>(options_.seconds));
-        last_edit_by_ = Clock::now() + seconds;
-        end_.expires_at(last_edit_by_ + kGrace);
+    void end_by(Clock::time_point time) {
+        end_.expires_at(time);
         end_.async_wait([this](const boost::system::error_code& error) {
             if (!error) {
-                lasted_ = true;
+                lasted_ = last_edit_by_ != Clock::time_point{};
                 beat_.cancel();
                 session_.close();
             }
         });
     }
 
-    void begin() {
+    void joined() {
         opened = true;
-        next_edit_ = Clock::now();
-        if (drags_) {
-            drag();
+        if (!drags_) {
+            arrive();
+        }
+    }
+
+    void arrive() {
+        if (!has_arrived_) {
+            has_arrived_ = true;
+            line_.arrive();
         }
     }
 
@@ -96,14 +142,19 @@ class Visitor {
             yaw_degrees_ += kDegreesPerEdit;
             session_.send_edit({{"rotation", {{"yaw_degrees", yaw_degrees_}}}});
             ++edits;
-            next_edit_ += std::chrono::duration_cast<Clock::duration>(
-                std::chrono::duration<double>(1 / options_.rate_hz));
+            next_edit_ += from_seconds(1 / options_.rate_hz);
             drag();
         });
     }
 
     void image(const ReceivedImage& received) {
         ++images;
+        if (!first_image_ms) {
+            first_image_ms =
+                std::chrono::duration<double, std::milli>(received.received - opened_at_)
+                    .count();
+        }
+        arrive();
         images_while_dragging += received.received < last_edit_by_ ? 1U : 0U;
         exact_images += received.header.exact ? 1U : 0U;
         bytes += received.payload.size();
@@ -112,8 +163,10 @@ class Visitor {
     }
 
     void ended(const SessionEnd& e) {
+        has_ended_ = true;
         beat_.cancel();
         end_.cancel();
+        arrive();
         if (!lasted_) {
             early_end = e.reason;
         }
@@ -121,10 +174,14 @@ class Visitor {
 
     const LoadOptions& options_;
     bool drags_;
+    StartingLine& line_;
+    Clock::time_point opened_at_;
+    bool has_arrived_ = false;
+    bool has_ended_ = false;
     bool lasted_ = false;
     double yaw_degrees_ = 0;
     Clock::time_point next_edit_;
-    Clock::time_point last_edit_by_;
+    Clock::time_point last_edit_by_;  // set once everybody is there
     Session session_;
     asio::steady_timer beat_;
     asio::steady_timer end_;
@@ -144,15 +201,20 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     asio::io_context io(static_cast<int>(options.threads));
     std::vector<std::unique_ptr<Visitor>> visitors;
     const std::size_t count = options.dragging + options.idle;
+    StartingLine line(count, [&] {
+        for (std::size_t i = 0; i < count; ++i) {
+            // Spread over one beat, or all edits of all sessions would come at once.
+            visitors[i]->go(from_seconds(static_cast<double>(i) /
+                                         (options.rate_hz * static_cast<double>(count))));
+        }
+    });
     for (std::size_t i = 0; i < count; ++i) {
         const bool drags = i < options.dragging;
-        visitors.push_back(
-            std::make_unique<Visitor>(io, options, session_options(options, drags), drags));
-        // Spread over one beat, or all edits of all sessions would come at once.
-        const double delay =
-            static_cast<double>(i) / (options.rate_hz * static_cast<double>(count));
-        visitors.back()->start(
-            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(delay)));
+        visitors.push_back(std::make_unique<Visitor>(
+            io, options, session_options(options, drags), drags, line));
+    }
+    for (const auto& visitor : visitors) {
+        visitor->open();
     }
     {
         std::vector<std::jthread> threads;
@@ -169,6 +231,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     std::size_t exact_images = 0;
     std::uint64_t bytes = 0;
     std::vector<double> edit_to_image_ms;
+    std::vector<double> first_image_ms;
     std::map<std::string, std::size_t> errors;
     std::map<std::string, std::size_t> ends;
     for (const auto& visitor : visitors) {
@@ -180,6 +243,9 @@ nlohmann::json run_load_test(const LoadOptions& options) {
         bytes += visitor->bytes;
         edit_to_image_ms.insert(edit_to_image_ms.end(), visitor->edit_to_image_ms.begin(),
                                 visitor->edit_to_image_ms.end());
+        if (visitor->first_image_ms) {
+            first_image_ms.push_back(*visitor->first_image_ms);
+        }
         for (const auto& [code, times] : visitor->errors) {
             errors[code] += times;
         }
@@ -203,6 +269,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
         {"errors", errors},
         {"ends", ends},
         {"ok", opened == count && errors.empty() && ends.empty()}};
+    put_spread(result, "first_image_ms", spread_of(std::move(first_image_ms)));
     put_spread(result, "edit_to_image_ms", spread_of(std::move(edit_to_image_ms)));
     return result;
 }
