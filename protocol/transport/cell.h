@@ -51,7 +51,7 @@ struct SegmentView {
     [[nodiscard]] bool empty() const { return tags == nullptr; }
     [[nodiscard]] CellTag tag(std::uint32_t block_in_shard) const {
         const unsigned shift = (block_in_shard & 1U) * 4U;
-        return static_cast<CellTag>((tags[block_in_shard / 2] >> shift) & 0xFU);
+        return static_cast<CellTag>((std::uint32_t{tags[block_in_shard / 2]} >> shift) & 0xFU);
     }
     // Bit b: block b of the shard's `block_count` has a cell.
     [[nodiscard]] std::uint64_t occupied_blocks(std::uint32_t block_count) const;

@@ -31,7 +31,7 @@ HWY_INLINE void refine(const float* HWY_RESTRICT averages,
     const auto half = hn::Set(d, 0.5F);
     for (std::size_t z = 0; z < kPlaces; z += hn::Lanes(d)) {
         const auto a = hn::LoadU(d, averages + z);
-        auto h = hn::Undefined(d);
+        auto h = hn::Zero(d);
         auto v = h;
         auto x = h;
         hn::LoadInterleaved3(d, wavelets + 3 * z, h, v, x);
