@@ -12,7 +12,7 @@ namespace {
 using transport::kColours;
 
 // What may be left out, of the norm of the image.
-constexpr double kNegligibleError = 1e-5;
+constexpr double kNegligibleError = 2e-6;
 
 }  // namespace
 
