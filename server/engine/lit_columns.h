@@ -22,7 +22,7 @@ class LitColumns {
     // All columns of lighting, planar [3][N], that are not zero.
     void set(std::span<const float> lighting);
     // The same without those that do not count: which each have so little of the image's
-    // energy, Σ_c (L(c,j)·‖T(c,j)‖)², that all together would leave no more than 10⁻⁵ of its
+    // energy, Σ_c (L(c,j)·‖T(c,j)‖)², that all together would leave no more than 2·10⁻⁶ of its
     // norm were they orthogonal. Most of a light's columns are such.
     void set_nearly(std::span<const float> lighting);
 
