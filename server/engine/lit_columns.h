@@ -29,11 +29,11 @@ class LitColumns {
     [[nodiscard]] std::span<const Column> of(std::size_t chunk, std::uint32_t colour) const;
 
   private:
-    // Those with (L(c,j)·‖T(c,j)‖)² above this.
+    // Those whose norms_ are above this.
     void take(std::span<const float> lighting, float negligible);
 
     const Scene* scene_;
-    std::vector<float> norms_;         // of the columns in the image, planar [3][N]
+    std::vector<float> norms_;         // L·‖T‖, or L where all count; planar [3][N]
     std::vector<Column> columns_;      // [3][N], those of a chunk from its first place on
     std::vector<std::size_t> counts_;  // [chunks][3]
 };

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -27,7 +28,8 @@ template <std::size_t kPlaces>
 HWY_INLINE void refine(const float* HWY_RESTRICT averages,
                        const float* HWY_RESTRICT wavelets,
                        float* HWY_RESTRICT finer) {
-    const hn::CappedTag < float, kPlaces<8 ? kPlaces : 8> d;
+    constexpr std::size_t kLanes = std::min<std::size_t>(kPlaces, 8);
+    const hn::CappedTag<float, kLanes> d;
     const auto half = hn::Set(d, 0.5F);
     for (std::size_t z = 0; z < kPlaces; z += hn::Lanes(d)) {
         const auto a = hn::LoadU(d, averages + z);
