@@ -37,11 +37,19 @@ constexpr bool has_band(std::uint32_t bands, std::uint32_t band) {
 
 }  // namespace
 
+void BandImages::Drift::set_norm(double measured) {
+    norm = known_norm = measured;
+    updates_since = 0;
+}
+
 bool BandImages::Drift::add(double norm_of_changes, std::size_t changes) {
     constexpr unsigned kUpdatesUnmeasured = 16;
     constexpr double kLoose = 2;
     // Of few columns the sum of norms says enough; of many, far too much.
     constexpr std::size_t kFewChanges = 64;
+    if (is_unknown()) {
+        return true;
+    }
     const bool begins = norm == 0 && updates_since == 0;
     norm += norm_of_changes;
     if (begins) {
@@ -57,14 +65,21 @@ bool BandImages::Drift::add(double norm_of_changes, std::size_t changes) {
 
 BandImages::BandImages(const Scene& scene)
     : scene_(&scene),
-      bands_(scene.band_count(), std::vector<float>(scene.sum_count())),
+      bands_(scene.band_count()),
       total_(scene.sum_count()),
-      drift_(scene.band_count()),
+      loose_(scene),
+      drift_(scene.band_count() + 1),
       occupied_(scene.block_count()),
-      energies_(scene.transport().shards().size() * scene.band_count()) {}
+      energies_(scene.block_count() * (scene.band_count() + std::size_t{1})) {}
 
 float* BandImages::sums_of(std::vector<float>& image, std::uint32_t block) {
     return &image[block * kSumsPerBlock];
+}
+
+void BandImages::make_band(std::uint32_t band) {
+    if (bands_[band].empty()) {
+        bands_[band].resize(scene_->sum_count());
+    }
 }
 
 void BandImages::update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes) {
@@ -76,112 +91,120 @@ void BandImages::update_together(std::span<const Update> updates) {
     if (updates.empty()) {
         return;
     }
-    const Scene& scene = *updates.front().images->scene_;
-    boost::container::small_vector<std::uint32_t, kMaxBatchMembers> bands_to_measure;
     for (const Update& update : updates) {
-        bands_to_measure.push_back(update.images->begin_update(update));
+        update.images->begin_update(update);
     }
-    tbb::parallel_for(
-        std::size_t{0}, scene.transport().shards().size(), [&](std::size_t shard) {
-            update_shard(shard, updates, {bands_to_measure.data(), updates.size()});
-        });
-    for (std::size_t i = 0; i < updates.size(); ++i) {
-        updates[i].images->end_update(updates[i], bands_to_measure[i]);
+    const Scene& scene = *updates.front().images->scene_;
+    tbb::parallel_for(std::size_t{0}, scene.transport().shards().size(),
+                      [&](std::size_t shard) {
+                          for (const Update& update : updates) {
+                              update.images->update_shard(shard);
+                          }
+                      });
+    for (const Update& update : updates) {
+        update.images->end_update();
     }
 }
 
-std::uint32_t BandImages::begin_update(const Update& update) {
-    const bool all_are_known = std::none_of(drift_.begin(), drift_.end(),
-                                            [](const Drift& d) { return d.is_unknown(); });
-    total_is_resummed_ = update.bands_to_clear != 0 && !all_are_known;
-    const double norm = total_norm();
-    total_squared_norms_ += std::popcount(update.bands_to_clear) * norm * norm;
-    if (total_is_resummed_ || update.bands_to_clear == band_bit(scene_->band_count()) - 1) {
-        total_squared_norms_ = 0;
-    }
-    std::uint32_t bands_to_measure = 0;
-    for (std::uint32_t band = 0; band < drift_.size(); ++band) {
-        const auto changes = changes_of_band(update.changes, scene_->bands(), band);
+void BandImages::begin_update(const Update& update) {
+    step_.begins_anew = update.bands_to_clear == total_bit() - 1;
+    step_.bands_to_remove = 0;
+    step_.images_to_measure = 0;
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
         if (has_band(update.bands_to_clear, band)) {
+            step_.bands_to_remove |= bands_[band].empty() ? 0 : band_bit(band);
             drift_[band] = {};
         }
-        const bool is_unknown = drift_[band].is_unknown();
-        const bool is_loose =
-            !changes.empty() && drift_[band].add(norm_of(changes), changes.size());
-        bands_to_measure |= (is_unknown || is_loose ? 1U : 0U) << band;
     }
-    return bands_to_measure;
-}
-
-void BandImages::end_update(const Update& update, std::uint32_t bands_measured) {
-    unsigned additions = 0;
-    for (std::uint32_t band = 0; band < drift_.size(); ++band) {
-        Drift& drift = drift_[band];
-        if (has_band(bands_measured, band)) {
-            drift.norm = drift.known_norm = measured_norm(band);
-            drift.updates_since = 0;
+    Drift& total = drift_.back();
+    if (step_.begins_anew) {
+        loose_.clear();
+        total = {};
+    } else if (total.is_unknown()) {
+        total.set_norm(measured_norm(bands_.size()));
+    }
+    loose_.update(step_.begins_anew ? 0 : update.bands_to_clear, update.changes, step_.changes);
+    const auto& [total_alone, total_and_band] = step_.changes;
+    bytes_added_ = bytes_of(total_alone) + bytes_of(total_and_band);
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        const auto changes = changes_of_band(total_and_band, scene_->bands(), band);
+        if (!changes.empty()) {
+            make_band(band);
+            if (drift_[band].add(norm_of(changes), changes.size())) {
+                step_.images_to_measure |= band_bit(band);
+            }
         }
-        if (!changes_of_band(update.changes, scene_->bands(), band).empty()) {
-            drift.update_is_done();
-            ++additions;
-        }
     }
-    if (!total_is_resummed_) {
-        total_squared_norms_ += additions * total_norm() * total_norm();
+    const bool removes = step_.bands_to_remove != 0 && !step_.begins_anew;
+    step_.norm_before = total.norm;
+    const std::size_t changes = total_alone.size() + total_and_band.size();
+    if (total.add(norm_of(total_alone) + norm_of(total_and_band), changes) || removes) {
+        step_.images_to_measure |= total_bit();
     }
+    // What is taken back may first have cancelled the image that is removed.
+    step_.largest_norm = removes ? total.norm : 0;
 }
 
-double BandImages::total_norm() const {
-    return std::accumulate(drift_.begin(), drift_.end(), 0.0,
-                           [](double sum, const Drift& drift) { return sum + drift.norm; });
-}
-
-void BandImages::update_shard(std::size_t shard,
-                              std::span<const Update> updates,
-                              std::span<const std::uint32_t> bands_to_measure) {
-    for (std::size_t i = 0; i < updates.size(); ++i) {
-        BandImages& images = *updates[i].images;
-        images.update_bands(shard, updates[i]);
-        for_each_bit(bands_to_measure[i],
-                     [&](std::uint32_t band) { images.measure_energy(shard, band); });
-    }
-}
-
-void BandImages::update_bands(std::size_t shard, const Update& update) {
+void BandImages::update_shard(std::size_t shard) {
     const transport::ShardReader& reader = scene_->transport().shards()[shard];
     const std::uint32_t first = reader.first_block();
-    thread_local std::vector<WeightedSegment> segments;
-    for_each_bit(update.bands_to_clear, [&](std::uint32_t band) {
-        for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
-            remove_band(first + b, band);
+    const std::uint32_t count = reader.block_count();
+    if (step_.begins_anew || step_.bands_to_remove != 0) {
+        for (std::uint32_t block = first; block < first + count; ++block) {
+            remove_bands(block);
         }
-    });
-    for (std::uint32_t band = 0; band < scene_->band_count(); ++band) {
-        const auto of_band = changes_of_band(update.changes, scene_->bands(), band);
+    }
+    thread_local std::vector<WeightedSegment> segments;
+    gather_segments(scene_->transport(), shard, step_.changes.total_alone, segments);
+    accumulate_segments(segments, count, {.sums = sums_of(total_, first), .total = nullptr});
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        const auto of_band =
+            changes_of_band(step_.changes.total_and_band, scene_->bands(), band);
         if (of_band.empty()) {
             continue;
         }
-        for_each_bit(gather_segments(scene_->transport(), shard, of_band, segments),
+        gather_segments(scene_->transport(), shard, of_band, segments);
+        for_each_bit(occupied_blocks(segments, count),
                      [&](std::uint32_t b) { occupied_[first + b] |= band_bit(band); });
-        accumulate_segments(segments, reader.block_count(),
-                            {.sums = sums_of(bands_[band], first),
-                             .total = total_is_resummed_ ? nullptr : sums_of(total_, first)});
+        accumulate_segments(
+            segments, count,
+            {.sums = sums_of(bands_[band], first), .total = sums_of(total_, first)});
     }
-    for (std::uint32_t b = 0; total_is_resummed_ && b < reader.block_count(); ++b) {
-        sum_bands(first + b);
+    for (std::uint32_t block = first; block < first + count; ++block) {
+        measure(block, step_.images_to_measure);
     }
+}
+
+void BandImages::end_update() {
+    take_measured_norms(step_.images_to_measure);
+    unsigned additions = step_.changes.total_alone.empty() ? 0 : 1;
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        if (!changes_of_band(step_.changes.total_and_band, scene_->bands(), band).empty()) {
+            drift_[band].squared_norms += drift_[band].norm * drift_[band].norm;
+            ++additions;
+        }
+    }
+    if (!step_.begins_anew) {
+        additions += static_cast<unsigned>(std::popcount(step_.bands_to_remove));
+    }
+    Drift& total = drift_.back();
+    const double largest = std::max({step_.norm_before, step_.largest_norm, total.norm});
+    total.squared_norms += additions * largest * largest;
 }
 
 void BandImages::rebuild_together(std::uint32_t first_block,
                                   std::uint32_t last_block,
                                   std::span<const Rebuild> rebuilds) {
+    for (const Rebuild& rebuild : rebuilds) {
+        BandImages& images = *rebuild.images;
+        for (std::uint32_t band = 0; band < images.bands_.size(); ++band) {
+            images.make_band(band);
+        }
+        images.loose_.clear();
+        std::fill(images.drift_.begin(), images.drift_.end(), Drift::of_unknown_norm());
+    }
     tbb::parallel_for(first_block, last_block,
                       [&](std::uint32_t block) { rebuild_block(block, rebuilds); });
-    for (const Rebuild& rebuild : rebuilds) {
-        std::fill(rebuild.images->drift_.begin(), rebuild.images->drift_.end(),
-                  Drift::of_unknown_norm());
-        rebuild.images->total_squared_norms_ = 0;
-    }
 }
 
 void BandImages::rebuild_block(std::uint32_t block, std::span<const Rebuild> rebuilds) {
@@ -197,22 +220,25 @@ void BandImages::rebuild_block(std::uint32_t block, std::span<const Rebuild> reb
         scene.strips().multiply(block, band, std::span(members.data(), members.size()));
     }
     for (const Rebuild& rebuild : rebuilds) {
-        rebuild.images->occupied_[block] = scene.strips().bands_of_block(block);
-        rebuild.images->sum_bands(block);
+        BandImages& images = *rebuild.images;
+        images.occupied_[block] = scene.strips().bands_of_block(block);
+        images.sum_bands(block);
+        images.measure(block, images.total_bit());
     }
 }
 
 void BandImages::renew_band(std::uint32_t band, const ColumnWeights& weights) {
+    make_band(band);
     tbb::parallel_for(std::uint32_t{0}, scene_->block_count(), [&](std::uint32_t block) {
         clear_band(block, band);
         const StripMatrix::Member member{.weights = &weights,
                                          .sums = sums_of(bands_[band], block)};
         scene_->strips().multiply(block, band, {&member, 1});
         occupied_[block] |= scene_->strips().bands_of_block(block) & band_bit(band);
-        sum_bands(block);
     });
     drift_[band] = Drift::of_unknown_norm();
-    total_squared_norms_ = 0;
+    loose_.clear(band);
+    renew_total();
 }
 
 void BandImages::clear_band(std::uint32_t block, std::uint32_t band) {
@@ -222,30 +248,19 @@ void BandImages::clear_band(std::uint32_t block, std::uint32_t band) {
     }
 }
 
-void BandImages::remove_band(std::uint32_t block, std::uint32_t band) {
-    if (!has_band(occupied_[block], band)) {
-        return;
-    }
-    float* sums = sums_of(bands_[band], block);
+void BandImages::remove_bands(std::uint32_t block) {
     float* total = sums_of(total_, block);
-    const bool is_the_last = occupied_[block] == band_bit(band);
-    for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
-        total[i] = is_the_last ? 0.0F : total[i] - sums[i];
-        sums[i] = 0;
-    }
-    occupied_[block] &= ~band_bit(band);
-}
-
-void BandImages::measure_energy(std::size_t shard, std::uint32_t band) {
-    const transport::ShardReader& reader = scene_->transport().shards()[shard];
-    double energy = 0;
-    for (std::uint32_t b = 0; b < reader.block_count(); ++b) {
-        const std::uint32_t block = reader.first_block() + b;
-        if (has_band(occupied_[block], band)) {
-            energy += squared_norm({sums_of(bands_[band], block), kSumsPerBlock});
+    for_each_bit(occupied_[block] & step_.bands_to_remove, [&](std::uint32_t band) {
+        float* sums = sums_of(bands_[band], block);
+        for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
+            total[i] -= sums[i];
+            sums[i] = 0;
         }
+    });
+    occupied_[block] &= ~step_.bands_to_remove;
+    if (step_.begins_anew) {
+        std::fill_n(total, kSumsPerBlock, 0.0F);
     }
-    energies_[shard * bands_.size() + band] = energy;
 }
 
 void BandImages::sum_bands(std::uint32_t block) {
@@ -259,12 +274,29 @@ void BandImages::sum_bands(std::uint32_t block) {
     });
 }
 
-double BandImages::measured_norm(std::uint32_t band) const {
+void BandImages::measure(std::uint32_t block, std::uint32_t images) {
+    double* energies = &energies_[block * drift_.size()];
+    for_each_bit(images, [&](std::uint32_t image) {
+        const bool is_total = image == bands_.size();
+        const bool is_dark = !is_total && !has_band(occupied_[block], image);
+        energies[image] = is_dark
+                              ? 0
+                              : squared_norm({sums_of(is_total ? total_ : bands_[image], block),
+                                              kSumsPerBlock});
+    });
+}
+
+double BandImages::measured_norm(std::size_t image) const {
     double squared_norm = 0;
-    for (std::size_t i = band; i < energies_.size(); i += bands_.size()) {
+    for (std::size_t i = image; i < energies_.size(); i += drift_.size()) {
         squared_norm += energies_[i];
     }
     return std::sqrt(squared_norm);
+}
+
+void BandImages::take_measured_norms(std::uint32_t images) {
+    for_each_bit(images,
+                 [&](std::uint32_t image) { drift_[image].set_norm(measured_norm(image)); });
 }
 
 // Triangle inequality; of the columns as they are stored.
@@ -275,7 +307,7 @@ double BandImages::norm_of(std::span<const ColumnChange> changes) const {
     for (const ColumnChange& change : changes) {
         double squared = 0;
         for (std::size_t c = 0; c < kColours; ++c) {
-            const double norm = double{change.amount[c]} * norms[c * count + change.column];
+            const double norm = double{change.amount(c)} * norms[c * count + change.column];
             squared += norm * norm;
         }
         sum += std::sqrt(squared);
@@ -283,8 +315,16 @@ double BandImages::norm_of(std::span<const ColumnChange> changes) const {
     return sum;
 }
 
+std::uint64_t BandImages::bytes_of(std::span<const ColumnChange> changes) const {
+    std::uint64_t bytes = 0;
+    for (const ColumnChange& change : changes) {
+        bytes += scene_->transport().column_bytes(change.column);
+    }
+    return bytes;
+}
+
 double BandImages::rounding_error() const {
-    double squared_norms = total_squared_norms_;
+    double squared_norms = 0;
     for (const Drift& drift : drift_) {
         squared_norms += drift.squared_norms;
     }
@@ -293,21 +333,49 @@ double BandImages::rounding_error() const {
     return std::numeric_limits<float>::epsilon() * std::sqrt(squared_norms);
 }
 
-bool BandImages::total_drifted_most() const {
-    return total_squared_norms_ > drift_[most_drifted_band()].squared_norms;
+void BandImages::renew_total() {
+    const std::uint32_t all_images = 2 * total_bit() - 1;
+    tbb::parallel_for(
+        std::size_t{0}, scene_->transport().shards().size(), [&](std::size_t shard) {
+            const transport::ShardReader& reader = scene_->transport().shards()[shard];
+            const std::uint32_t first = reader.first_block();
+            const std::uint32_t end = first + reader.block_count();
+            for (std::uint32_t block = first; block < end; ++block) {
+                sum_bands(block);
+            }
+            thread_local std::vector<WeightedSegment> segments;
+            gather_segments(scene_->transport(), shard, loose_.columns(), segments);
+            accumulate_segments(segments, reader.block_count(),
+                                {.sums = sums_of(total_, first), .total = nullptr});
+            for (std::uint32_t block = first; block < end; ++block) {
+                measure(block, all_images);
+            }
+        });
+    take_measured_norms(all_images);
+    double squared_norms = 0;
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        squared_norms += cancelled_norm(band) * cancelled_norm(band);
+    }
+    drift_.back().squared_norms = squared_norms;
 }
 
-void BandImages::renew_total() {
-    tbb::parallel_for(std::uint32_t{0}, scene_->block_count(),
-                      [this](std::uint32_t block) { sum_bands(block); });
-    total_squared_norms_ = 0;
+double BandImages::cancelled_norm(std::uint32_t band) const {
+    return std::min(drift_[band].norm,
+                    norm_of(changes_of_band(loose_.columns(), scene_->bands(), band)));
 }
 
 std::uint32_t BandImages::most_drifted_band() const {
-    const auto most = std::max_element(
-        drift_.begin(), drift_.end(),
-        [](const Drift& a, const Drift& b) { return a.squared_norms < b.squared_norms; });
-    return static_cast<std::uint32_t>(most - drift_.begin());
+    std::uint32_t most = 0;
+    double largest = 0;
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        const double cancelled = cancelled_norm(band);
+        const double squared_norms = drift_[band].squared_norms + cancelled * cancelled;
+        if (squared_norms > largest) {
+            most = band;
+            largest = squared_norms;
+        }
+    }
+    return most;
 }
 
 }  // namespace relume::engine

@@ -1,7 +1,8 @@
-// One image of sums per band, and their running total.
+// The running total of the columns shown, and images of what it holds of the bands.
 #pragma once
 
 #include "server/engine/column_change.h"
+#include "server/engine/loose_columns.h"
 #include "server/engine/scene.h"
 #include "server/engine/strip_matrix.h"
 
@@ -15,29 +16,33 @@ namespace relume::engine {
 // Most sessions that are relit in one sweep.
 inline constexpr std::size_t kMaxBatchMembers = 16;
 
-// Sums are [blocks][3][256], in the basis of the blocks, before tint. A block's sums are made
-// by one thread in one order, so the result does not depend on the number of threads. Not
-// thread-safe.
+// Sums are [blocks][3][256], in the basis of the blocks, before tint. The total is what the
+// bands' images and the loose columns add up to. A band has no image, and takes no memory,
+// before a whole product or very many columns gave it one. A block's sums are made by one
+// thread in one order, so the result does not depend on the number of threads. Not thread-safe.
 class BandImages {
   public:
     explicit BandImages(const Scene& scene);
 
-    // Sets the bands of the mask to zero, adds the changes (ordered by band), and brings the
-    // total up to date, by adding and taking away. What that leaves behind of what a band held
-    // is part of rounding_error(); nothing is left where all bands were reset.
+    // Takes the bands of the mask out of the total and adds the changes, which are ordered by
+    // band and index and relative to that. What rounding leaves is part of rounding_error();
+    // nothing is left where all bands were cleared.
     void update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes);
 
     [[nodiscard]] std::span<const float> total() const { return total_; }
-    [[nodiscard]] std::span<const float> band(std::uint32_t band) const { return bands_[band]; }
+    // Of the columns that the last update added, those taken back among them.
+    [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
 
-    // Estimated rounding error left in the total by additions since it and each band were last
-    // made from nothing, as an L2 norm: of each ε·√(Σ_updates ‖image‖²).
+    // Estimated rounding error left in the total by additions since it and the bands' images
+    // were last made from nothing, as an L2 norm: of each ε·√(Σ_updates ‖image‖²).
     [[nodiscard]] double rounding_error() const;
-    // Who contributes most to it: the total, which is made anew from the bands, or a band.
-    [[nodiscard]] bool total_drifted_most() const;
-    [[nodiscard]] std::uint32_t most_drifted_band() const;
+    // Makes the total anew from the bands' images and the loose columns. Where these are large
+    // and nearly cancel, an error is left that the band alone can be blamed for.
     void renew_total();
-    // Makes the band from nothing, and the total from the bands.
+    // The band to blame most for what is left of the error when the total has been renewed.
+    [[nodiscard]] std::uint32_t most_drifted_band() const;
+    // Makes the band's image from nothing, of all that is shown of the band, and the total
+    // anew.
     void renew_band(std::uint32_t band, const ColumnWeights& weights);
 
     // What `update` does to each of several images of one scene, at most kMaxBatchMembers, in
@@ -63,10 +68,10 @@ class BandImages {
                                  std::span<const Rebuild> rebuilds);
 
   private:
-    // What additions to a band have left in it. Its norm is measured now and then, for that
+    // What additions to an image have left in it. Its norm is measured now and then, for that
     // takes as long as adding a few columns; in between it is bounded by what was added.
     struct Drift {
-        double norm = 0;             // not less than ‖band‖
+        double norm = 0;             // not less than ‖image‖
         double known_norm = 0;       // when it was last measured, or begun from nothing
         unsigned updates_since = 0;  // it was known
         double squared_norms = 0;    // Σ_updates
@@ -74,44 +79,50 @@ class BandImages {
         // Made from nothing, nobody knows how large.
         [[nodiscard]] static Drift of_unknown_norm() { return {.updates_since = ~0U}; }
         [[nodiscard]] bool is_unknown() const { return updates_since == ~0U; }
+        void set_norm(double measured);
         // An update of so many columns adds so much at most; whether the norm must be measured
         // after it.
         bool add(double norm_of_changes, std::size_t changes);
-        void update_is_done() { squared_norms += norm * norm; }
+    };
+    // An update under way.
+    struct Step {
+        bool begins_anew = false;             // with a black image
+        std::uint32_t bands_to_remove = 0;    // that may have an image
+        std::uint32_t images_to_measure = 0;  // a bit for each band's, one for the total's
+        double norm_before = 0;               // of the total, at most
+        double largest_norm = 0;  // at most, of what the total passes through while bands go
+        LooseColumns::Split changes;
     };
 
-    // `bands_to_measure` of each update.
-    static void update_shard(std::size_t shard,
-                             std::span<const Update> updates,
-                             std::span<const std::uint32_t> bands_to_measure);
-    // What an update does to the drift; the mask of the bands whose norm is to be measured.
-    [[nodiscard]] std::uint32_t begin_update(const Update& update);
-    void end_update(const Update& update, std::uint32_t bands_measured);
-    void update_bands(std::size_t shard, const Update& update);
+    void begin_update(const Update& update);
+    void update_shard(std::size_t shard);
+    void end_update();
     static void rebuild_block(std::uint32_t block, std::span<const Rebuild> rebuilds);
+    void make_band(std::uint32_t band);
     void clear_band(std::uint32_t block, std::uint32_t band);
-    // The same, and from the total.
-    void remove_band(std::uint32_t block, std::uint32_t band);
-    void measure_energy(std::size_t shard, std::uint32_t band);
+    void remove_bands(std::uint32_t block);
     void sum_bands(std::uint32_t block);
-    // Not less than the total's.
-    [[nodiscard]] double total_norm() const;
-    [[nodiscard]] double measured_norm(std::uint32_t band) const;
+    [[nodiscard]] std::uint32_t total_bit() const { return std::uint32_t{1} << bands_.size(); }
+    // Images as a mask: bands, and the total.
+    void measure(std::uint32_t block, std::uint32_t images);
+    void take_measured_norms(std::uint32_t images);
+    [[nodiscard]] double measured_norm(std::size_t image) const;
+    // Of the part of a band's image that loose columns may have taken back.
+    [[nodiscard]] double cancelled_norm(std::uint32_t band) const;
     [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
+    [[nodiscard]] std::uint64_t bytes_of(std::span<const ColumnChange> changes) const;
     // Sums of a block and, as they lie one after the other, of those that follow.
     [[nodiscard]] static float* sums_of(std::vector<float>& image, std::uint32_t block);
 
     const Scene* scene_;
-    std::vector<std::vector<float>> bands_;
+    std::vector<std::vector<float>> bands_;  // empty until something is in it
     std::vector<float> total_;
-    std::vector<Drift> drift_;  // [bands]
-    // Σ_updates of a band ‖total‖², since the bands were summed.
-    double total_squared_norms_ = 0;
-    // In the update under way: a band is reset of which nobody knows how much taking it away
-    // would leave behind.
-    bool total_is_resummed_ = false;
-    std::vector<std::uint32_t> occupied_;  // [blocks], bands that are not zero all over
-    std::vector<double> energies_;  // [shards][bands], Σ of squared band sums when measured
+    LooseColumns loose_;
+    Step step_;
+    std::uint64_t bytes_added_ = 0;
+    std::vector<Drift> drift_;             // [bands + 1], the last of the total
+    std::vector<std::uint32_t> occupied_;  // [blocks], bands whose images are not zero all over
+    std::vector<double> energies_;  // [blocks][bands + 1], Σ of squared sums when measured
 };
 
 }  // namespace relume::engine

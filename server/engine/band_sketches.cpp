@@ -39,7 +39,7 @@ void add_changes(const Sketch& sketch,
     for (std::uint32_t c = 0; c < kColours; ++c) {
         add_colour(
             sketch, c, changes.size(), [&](std::size_t i) { return changes[i].column; },
-            [&](std::size_t i) { return changes[i].amount[c]; },
+            [&](std::size_t i) { return changes[i].amount(c); },
             sums.subspan(c * std::size_t{sketch.rows()}, sketch.rows()));
     }
 }

@@ -1,4 +1,4 @@
-// A column to be added to the image, and how much of it.
+// A column whose part in the image changes, from how much of it to how much.
 #pragma once
 
 #include "protocol/transport/format.h"
@@ -11,11 +11,13 @@ namespace relume::engine {
 
 struct ColumnChange {
     std::uint32_t column = 0;
-    std::array<float, transport::kColours> amount{};  // ΔL(j,c)
+    // L̃(j,c) before and after. Both, not their difference: floats that come and go in
+    // differences do not come back to where they were.
+    std::array<float, transport::kColours> from{};
+    std::array<float, transport::kColours> to{};
 
-    [[nodiscard]] bool is_nothing() const {
-        return amount[0] == 0 && amount[1] == 0 && amount[2] == 0;
-    }
+    [[nodiscard]] float amount(std::size_t c) const { return to[c] - from[c]; }
+    [[nodiscard]] bool is_nothing() const { return from == to; }
 };
 
 // The part of `changes`, ordered by band, that belongs to one band.

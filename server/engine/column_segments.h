@@ -12,11 +12,14 @@
 
 namespace relume::engine {
 
-// Replaces `segments` by those of the changed columns in one shard, with their weights. Returns
-// the blocks of the shard in which they have cells, a bit each.
-std::uint64_t gather_segments(const transport::Transport& transport,
-                              std::size_t shard,
-                              std::span<const ColumnChange> changes,
-                              std::vector<WeightedSegment>& segments);
+// Replaces `segments` by those of the changed columns in one shard, with their weights.
+void gather_segments(const transport::Transport& transport,
+                     std::size_t shard,
+                     std::span<const ColumnChange> changes,
+                     std::vector<WeightedSegment>& segments);
+
+// The blocks of a shard of so many in which any of the segments has cells, a bit each.
+[[nodiscard]] std::uint64_t occupied_blocks(std::span<const WeightedSegment> segments,
+                                            std::uint32_t block_count);
 
 }  // namespace relume::engine

@@ -35,7 +35,8 @@ void Lighting::set_target(std::span<const float> coefficients) {
 ColumnChange Lighting::difference(std::size_t column) const {
     ColumnChange change{.column = static_cast<std::uint32_t>(column)};
     for (std::size_t c = 0; c < kColours; ++c) {
-        change.amount[c] = target(c, column) - approximation(c, column);
+        change.from[c] = approximation(c, column);
+        change.to[c] = target(c, column);
     }
     return change;
 }
@@ -43,7 +44,7 @@ ColumnChange Lighting::difference(std::size_t column) const {
 ColumnChange Lighting::whole(std::size_t column) const {
     ColumnChange change{.column = static_cast<std::uint32_t>(column)};
     for (std::size_t c = 0; c < kColours; ++c) {
-        change.amount[c] = target(c, column);
+        change.to[c] = target(c, column);
     }
     return change;
 }
@@ -60,7 +61,7 @@ void Lighting::apply(const Plan& plan) {
     }
     for (const ColumnChange& change : plan.changes) {
         for (std::size_t c = 0; c < kColours; ++c) {
-            approximation_[c * count_ + change.column] = target(c, change.column);
+            approximation_[c * count_ + change.column] = change.to[c];
         }
     }
 }

@@ -167,9 +167,11 @@ void Session::carry_out(std::span<const PlannedTurn> turns) {
             updates.push_back({.images = &turn.session->images_,
                                .bands_to_clear = turn.plan->bands_to_reset,
                                .changes = turn.plan->changes});
-            bytes += turn.plan->bytes;
         }
         BandImages::update_together(std::span(updates.data(), updates.size()));
+        for (const PlannedTurn& turn : batch) {
+            bytes += turn.session->images_.bytes_added();
+        }
     }
     const double taken = stopwatch.milliseconds();
     for (const PlannedTurn& turn : turns) {
@@ -187,16 +189,17 @@ void Session::plan_is_carried_out(const Plan& plan, StepReport& report) {
     remaining_ = plan.remaining_columns();
     report.applied = static_cast<std::uint32_t>(plan.changes.size());
     report.bands_reset = plan.bands_to_reset;
-    report.bytes_touched += plan.bytes;
+    report.bytes_touched += images_.bytes_added();
     report.image_changed = plan.bands_to_reset != 0 || !plan.changes.empty();
     remove_drift(report);
 }
 
 void Session::remove_drift(StepReport& report) {
     const double allowed = kLargestDrift * error_.shown_norm();
-    if (images_.rounding_error() > allowed && images_.total_drifted_most()) {
-        images_.renew_total();
+    if (images_.rounding_error() <= allowed) {
+        return;
     }
+    images_.renew_total();
     if (images_.rounding_error() <= allowed) {
         return;
     }

@@ -12,21 +12,27 @@
 namespace relume::bench {
 namespace {
 
-// Images of `terms` columns each that go through the transport from end to end and around, so
-// that a column comes back only after all others have passed the caches.
+// Images of `terms` columns each that go through the transport from end to end, lighting every
+// column, and once more, darkening them: a column comes back only after all others have passed
+// the caches.
 std::vector<ChangesOfImage> walk_through(const engine::Scene& scene, std::size_t terms) {
     const std::size_t count = scene.coefficient_count();
     std::vector<ChangesOfImage> images;
     for (std::size_t first = 0; first + terms <= count; first += terms) {
         ChangesOfImage& image = images.emplace_back();
         for (std::size_t j = first; j < first + terms; ++j) {
-            image.push_back(
-                {.column = static_cast<std::uint32_t>(j), .amount = {1, 0.5F, 0.25F}});
+            image.push_back({.column = static_cast<std::uint32_t>(j), .to = {1, 0.5F, 0.25F}});
         }
         const auto bands = scene.bands();
         std::sort(image.begin(), image.end(), [&](const auto& a, const auto& b) {
             return std::pair(bands[a.column], a.column) < std::pair(bands[b.column], b.column);
         });
+    }
+    for (std::size_t i = 0, lit = images.size(); i < lit; ++i) {
+        ChangesOfImage& image = images.emplace_back(images[i]);
+        for (engine::ColumnChange& change : image) {
+            std::swap(change.from, change.to);
+        }
     }
     return images;
 }

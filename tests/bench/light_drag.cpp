@@ -86,8 +86,8 @@ std::vector<ChangesOfImage> drag_changes(const engine::Scene& scene,
         for (const std::uint32_t j : most_important(scene, target, shown, terms)) {
             engine::ColumnChange change{.column = j};
             for (std::size_t c = 0; c < kColours; ++c) {
-                change.amount[c] = target[c * count + j] - shown[c * count + j];
-                shown[c * count + j] = target[c * count + j];
+                change.from[c] = shown[c * count + j];
+                change.to[c] = shown[c * count + j] = target[c * count + j];
             }
             changes[image].push_back(change);
         }

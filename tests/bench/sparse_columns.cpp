@@ -126,7 +126,7 @@ std::array<float, kColours> channel_weights(const engine::Scene& scene,
     const auto& matrix = scene.transport().manifest().colour.matrix;
     std::array<float, kColours> weights{};
     for (std::size_t c = 0; c < kColours; ++c) {
-        weights[c] = matrix[c][channel] * change.amount[c];
+        weights[c] = matrix[c][channel] * change.amount(c);
     }
     return weights;
 }

@@ -122,8 +122,8 @@ void measure(Workbench& workbench,
     });
 }
 
-// What floats do when left alone: every difference is added to the sums of the bands, and
-// nothing is ever made anew.
+// What floats do when left alone: every difference is added to the total, and nothing is ever
+// made anew.
 struct Uncompensated {
     Drift drift;
     RelitImage image;
@@ -136,15 +136,12 @@ Uncompensated add_without_end(const engine::Scene& scene,
     std::vector<engine::ColumnChange> changes;
     for (std::size_t edit = 0; edit < edits; ++edit) {
         const Lighting& wanted = script.at(edit);
-        Lighting difference(shown.size());
-        std::transform(wanted.begin(), wanted.end(), shown.begin(), difference.begin(),
-                       std::minus<>());
         changes.clear();
         const std::size_t count = scene.coefficient_count();
         for (const std::uint32_t j : scene.columns_by_band()) {
-            changes.push_back(
-                {.column = j,
-                 .amount = {difference[j], difference[count + j], difference[2 * count + j]}});
+            changes.push_back({.column = j,
+                               .from = {shown[j], shown[count + j], shown[2 * count + j]},
+                               .to = {wanted[j], wanted[count + j], wanted[2 * count + j]}});
             if (changes.back().is_nothing()) {
                 changes.pop_back();
             }

@@ -110,9 +110,9 @@ TEST(BandSketches, KeepNothingOfALightThatIsGone) {
     bands.set(lit);
     const auto before = sum_of(bands);
     Plan on;
-    on.changes = {{.column = 7, .amount = {1e5F, 2e5F, 3e5F}}};
+    on.changes = {{.column = 7, .to = {1e5F, 2e5F, 3e5F}}};
     Plan off;
-    off.changes = {{.column = 7, .amount = {-1e5F, -2e5F, -3e5F}}};
+    off.changes = {{.column = 7, .from = {1e5F, 2e5F, 3e5F}}};
     for (int i = 0; i < 1000; ++i) {
         bands.apply(on);
         bands.apply(off);

@@ -62,7 +62,7 @@ TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
             plan.changes.emplace_back(ColumnChange{.column = static_cast<std::uint32_t>(j)});
         for (std::size_t c = 0; c < transport::kColours; ++c) {
             const std::size_t i = c * scene.coefficient_count() + j;
-            change.amount[c] = target[i];
+            change.to[c] = target[i];
             approximation[i] = target[i];
         }
         changed.apply(plan);

@@ -1,0 +1,110 @@
+#include "server/engine/loose_columns.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace relume::engine {
+namespace {
+
+// As many bytes of columns as this many images of sums may be loose in a band.
+constexpr std::uint64_t kLooseImages = 4;
+
+}  // namespace
+
+LooseColumns::LooseColumns(const Scene& scene)
+    : scene_(&scene),
+      most_bytes_(kLooseImages * scene.sum_count() * sizeof(float)),
+      bytes_(scene.band_count()) {}
+
+void LooseColumns::Split::clear() {
+    total_alone.clear();
+    total_and_band.clear();
+}
+
+void LooseColumns::update(std::uint32_t bands_to_clear,
+                          std::span<const ColumnChange> changes,
+                          Split& split) {
+    const std::span<const std::uint8_t> bands = scene_->bands();
+    const auto place = [&](const ColumnChange& change) {
+        return std::tuple(bands[change.column], change.column);
+    };
+    const auto is_cleared = [&](const ColumnChange& change) {
+        return ((bands_to_clear >> bands[change.column]) & 1U) != 0;
+    };
+    split.clear();
+    next_.clear();
+    std::fill(bytes_.begin(), bytes_.end(), 0);
+    auto loose = columns_.cbegin();
+    const auto pass_loose = [&] {
+        if (is_cleared(*loose)) {
+            take_back(*loose, split);
+        } else {
+            keep(*loose);
+        }
+        ++loose;
+    };
+    for (const ColumnChange& changed : changes) {
+        while (loose != columns_.cend() && place(*loose) < place(changed)) {
+            pass_loose();
+        }
+        if (loose != columns_.cend() && loose->column == changed.column) {
+            change_again(*loose, changed, is_cleared(changed), split);
+            ++loose;
+        } else {
+            change(changed, split);
+        }
+    }
+    while (loose != columns_.cend()) {
+        pass_loose();
+    }
+    columns_.swap(next_);
+}
+
+void LooseColumns::take_back(const ColumnChange& loose, Split& split) const {
+    // What the band's image held of the column goes with that image.
+    split.total_alone.push_back({.column = loose.column, .from = loose.to, .to = loose.from});
+}
+
+void LooseColumns::change(const ColumnChange& change, Split& split) {
+    if (bytes_[scene_->bands()[change.column]] > most_bytes_) {
+        split.total_and_band.push_back(change);
+        return;
+    }
+    split.total_alone.push_back(change);
+    keep(change);
+}
+
+void LooseColumns::change_again(const ColumnChange& loose,
+                                const ColumnChange& change,
+                                bool band_is_cleared,
+                                Split& split) {
+    ColumnChange left = {.column = change.column, .from = loose.from, .to = change.to};
+    ColumnChange added = {.column = change.column, .from = loose.to, .to = change.to};
+    if (band_is_cleared) {
+        left.from = {};
+        for (std::size_t c = 0; c < transport::kColours; ++c) {
+            added.to[c] += loose.from[c];
+        }
+    }
+    split.total_alone.push_back(added);
+    if (!left.is_nothing()) {
+        keep(left);
+    }
+}
+
+void LooseColumns::keep(const ColumnChange& loose) {
+    next_.push_back(loose);
+    bytes_[scene_->bands()[loose.column]] += scene_->transport().column_bytes(loose.column);
+}
+
+void LooseColumns::clear(std::uint32_t band) {
+    const auto of_band = changes_of_band(columns_, scene_->bands(), band);
+    const auto first = columns_.begin() + (of_band.data() - columns_.data());
+    columns_.erase(first, first + static_cast<std::ptrdiff_t>(of_band.size()));
+}
+
+void LooseColumns::clear() {
+    columns_.clear();
+}
+
+}  // namespace relume::engine
