@@ -7,14 +7,8 @@
 #include <cmath>
 
 namespace relume::engine {
-namespace {
 
 using transport::kColours;
-
-// What may be left out, of the norm of the image.
-constexpr double kNegligibleError = 2e-6;
-
-}  // namespace
 
 LitColumns::LitColumns(const Scene& scene)
     : scene_(&scene),
@@ -27,15 +21,15 @@ void LitColumns::set(std::span<const float> lighting) {
     take(lighting, 0);
 }
 
-void LitColumns::set_nearly(std::span<const float> lighting) {
+void LitColumns::set_nearly(std::span<const float> lighting, double negligible) {
     const std::span<const float> weights = scene_->weights(wire::Priority::transport);
     for (std::size_t i = 0; i < norms_.size(); ++i) {
         norms_[i] = lighting[i] * weights[i];
     }
-    const double negligible =
-        kNegligibleError * std::sqrt(squared_norm(norms_) / static_cast<double>(norms_.size()));
+    const double of_each =
+        negligible * std::sqrt(squared_norm(norms_) / static_cast<double>(norms_.size()));
     // Lighting of 10¹⁹ cannot be squared; all of it counts then.
-    take(lighting, std::isfinite(negligible) ? static_cast<float>(negligible) : 0);
+    take(lighting, std::isfinite(of_each) ? static_cast<float>(of_each) : 0);
 }
 
 void LitColumns::take(std::span<const float> lighting, float negligible) {

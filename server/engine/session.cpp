@@ -1,7 +1,5 @@
 #include "server/engine/session.h"
 
-#include "server/engine/relit_image.h"
-
 #include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -20,6 +18,12 @@ constexpr double kLargestDrift = 1e-5;
 constexpr std::uint64_t kImagesForFullProduct = 4;
 // And where what is left cannot be seen, so that nobody waits for it in small steps.
 constexpr double kUnseenError = 1e-3;
+
+// The columns that sketches of the target leave out are to be so many times smaller than the
+// error that these state. At most so much of the image, for the next error may be less than the
+// last.
+constexpr double kLeastTelling = 20;
+constexpr double kLargestNegligible = 5e-4;
 
 // And where so many sessions rest together: they have all of the transport in common then, and
 // little of what each would choose.
@@ -134,14 +138,15 @@ const Plan& Session::next_plan(const SelectionBudget& budget) {
         return plan;
     }
     lighting_is_new_ = false;
+    double expected_error = error_.relative_l2();
     if (estimates_are_stale_) {
+        expected_error = 0;
         lit_.set(lighting_.approximation());
         error_.set_approximation(lit_);
         planner_.approximation_is_unknown();
         estimates_are_stale_ = false;
     }
-    lit_.set_nearly(lighting_.target());
-    error_.set_target(lit_);
+    set_target_of_estimates(expected_error);
     const Plan& plan = planner_.begin(lighting_, lit_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
     return plan;
@@ -182,10 +187,25 @@ void Session::carry_out(std::span<const PlannedTurn> turns) {
     });
 }
 
+void Session::set_target_of_estimates(double expected_error) {
+    negligible_ =
+        std::clamp(expected_error / (2 * kLeastTelling), kSurelyNegligible, kLargestNegligible);
+    lit_.set_nearly(lighting_.target(), negligible_);
+    error_.set_target(lit_);
+}
+
+void Session::refine_estimates() {
+    while (negligible_ > kSurelyNegligible &&
+           error_.relative_l2() < kLeastTelling * negligible_) {
+        set_target_of_estimates(error_.relative_l2());
+    }
+}
+
 void Session::plan_is_carried_out(const Plan& plan, StepReport& report) {
     lighting_.apply(plan);
     error_.apply(plan);
     planner_.apply(plan);
+    refine_estimates();
     remaining_ = plan.remaining_columns();
     report.applied = static_cast<std::uint32_t>(plan.changes.size());
     report.bands_reset = plan.bands_to_reset;
@@ -301,6 +321,10 @@ void Session::full_product_is_done(StepReport& report) {
 
 void Session::write_image(std::span<float> rgb) const {
     write_relit_image(*scene_, images_.total(), rgb);
+}
+
+void Session::write_tiles(const TileRun& tiles, std::span<float> rgb) const {
+    write_relit_tiles(*scene_, images_.total(), tiles, rgb);
 }
 
 }  // namespace relume::engine

@@ -8,6 +8,7 @@
 #include "server/engine/full_product.h"
 #include "server/engine/lighting.h"
 #include "server/engine/planner.h"
+#include "server/engine/relit_image.h"
 #include "server/engine/scene.h"
 
 #include <cstdint>
@@ -83,6 +84,8 @@ class Session {
     // The relit image, tint applied: interleaved RGB, row by row from the top, 3·width·height
     // floats, linear radiance, premultiplied by coverage.
     void write_image(std::span<float> rgb) const;
+    // The same of a few tiles; any number of threads may.
+    void write_tiles(const TileRun& tiles, std::span<float> rgb) const;
 
   private:
     // What a turn is about to do. The plan is the planner's, until it chooses again.
@@ -107,6 +110,10 @@ class Session {
         StepReport* report;
     };
     static void carry_out(std::span<const PlannedTurn> turns);
+    // Leaves out so little of the target that it does not show beside such an error.
+    void set_target_of_estimates(double expected_error);
+    // Takes in more of it where the error has become smaller than was expected.
+    void refine_estimates();
     void plan_is_carried_out(const Plan& plan, StepReport& report);
     static void advance_full_products(std::span<SessionTurn* const> turns,
                                       std::size_t sessions);
@@ -131,6 +138,7 @@ class Session {
     FullProduct full_product_;
     ColumnWeights renewing_weights_;  // none until a band has drifted
     std::uint32_t remaining_ = 0;
+    double negligible_ = kSurelyNegligible;  // of the target, in the estimates
     bool lighting_is_new_ = false;
     // Error and choosing sketch do not know the approximation: it was made exact without them.
     bool estimates_are_stale_ = false;

@@ -1,5 +1,6 @@
 #include "server/net/frame_composer.h"
 
+#include "server/engine/relit_image.h"
 #include "server/light/background.h"
 
 #include <tbb/blocked_range.h>
@@ -13,8 +14,12 @@ namespace relume::net {
 
 namespace {
 
-// Pixels per task: enough work to be worth a task, and few enough to spread an image.
+// Pixels of background per task: enough work to be worth a task, and few enough to spread an
+// image.
 constexpr std::size_t kGrain = 4096;
+
+// Tiles per task: their linear pixels, 48 kB, stay in the second-level cache.
+constexpr std::uint32_t kTilesPerRun = 16;
 
 template <typename Body>
 void for_ranges(std::size_t count, const Body& body) {
@@ -48,7 +53,7 @@ FrameComposer::FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uin
       width_(width),
       height_(height),
       background_(sky.pixels().size(), Imath::V3f(0)),
-      rgb_(std::size_t{3} * width * height) {}
+      codes_(std::size_t{3} * width * height) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
@@ -71,44 +76,72 @@ void FrameComposer::set_background(const wire::Background& background,
     });
 }
 
-void FrameComposer::compose(const engine::Session& session) {
-    session.write_image(rgb_);
-    const std::span<const SkyPixel> pixels = sky_.pixels();
-    for_ranges(pixels.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            float* const rgb = &rgb_[std::size_t{3} * pixels[i].index];
-            rgb[0] += background_[i].x;
-            rgb[1] += background_[i].y;
-            rgb[2] += background_[i].z;
+// Calls take(index of the first pixel, linear pixels) for parts of rows that together are the
+// image, in no order and at the same time.
+template <typename Take>
+void FrameComposer::for_each_row(const engine::Session& session, const Take& take) const {
+    const transport::TileGrid& image = session.scene().image();
+    const std::uint32_t runs_x = (image.tiles_x() + kTilesPerRun - 1) / kTilesPerRun;
+    tbb::parallel_for(std::uint32_t{0}, runs_x * image.tiles_y(), [&](std::uint32_t run) {
+        const std::uint32_t first = run % runs_x * kTilesPerRun;
+        const engine::TileRun tiles{.row = run / runs_x,
+                                    .first = first,
+                                    .last = std::min(first + kTilesPerRun, image.tiles_x())};
+        const engine::PixelRect pixels = engine::pixels_of(image, tiles);
+        const std::size_t row_floats = std::size_t{3} * pixels.width;
+        thread_local std::vector<float> rgb;
+        rgb.resize(row_floats * pixels.height);
+        session.write_tiles(tiles, rgb);
+        for (std::uint32_t y = 0; y < pixels.height; ++y) {
+            const std::span<float> row = std::span(rgb).subspan(y * row_floats, row_floats);
+            add_background(pixels.left, pixels.top + y, row);
+            take(std::size_t{pixels.top + y} * width_ + pixels.left, row);
         }
     });
 }
 
-void FrameComposer::write_codes(const DisplayTable& table,
-                                std::span<std::uint8_t> codes) const {
-    for_ranges(rgb_.size(), [&](std::size_t begin, std::size_t end) {
-        table.codes(std::span(rgb_).subspan(begin, end - begin),
-                    codes.subspan(begin, end - begin));
+void FrameComposer::add_background(std::uint32_t x,
+                                   std::uint32_t y,
+                                   std::span<float> rgb) const {
+    const std::uint32_t end = x + static_cast<std::uint32_t>(rgb.size() / 3);
+    for (const SkyRun& run : sky_.runs_of_row(y)) {
+        const std::uint32_t first = std::max(run.x, x);
+        const std::uint32_t last = std::min(run.x + run.count, end);
+        if (first >= last) {
+            continue;
+        }
+        const float* const background = &background_[run.place + (first - run.x)].x;
+        float* const seen = &rgb[std::size_t{3} * (first - x)];
+        for (std::size_t i = 0; i < std::size_t{3} * (last - first); ++i) {
+            seen[i] += background[i];
+        }
+    }
+}
+
+void FrameComposer::compose_codes(const engine::Session& session, const DisplayTable& display) {
+    for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
+        display.codes(rgb, std::span(codes_).subspan(3 * index, rgb.size()));
     });
 }
 
-const wire::HalfImage& FrameComposer::half_image() {
+void FrameComposer::compose_half(const engine::Session& session) {
     const std::size_t pixel_count = std::size_t{width_} * height_;
     half_.width = width_;
     half_.height = height_;
     half_.has_alpha = has_alpha_;
     half_.values.resize(pixel_count * half_.plane_count());
-    for_ranges(pixel_count, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+    for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
+        for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
-                half_.values[c * pixel_count + i] = wire::half_from_linear(rgb_[3 * i + c]);
+                half_.values[c * pixel_count + index + i] =
+                    wire::half_from_linear(rgb[3 * i + c]);
             }
             if (has_alpha_) {
-                half_.values[3 * pixel_count + i] = wire::half_from_linear(sky_.coverage()[i]);
+                half_.values[3 * pixel_count + index + i] =
+                    wire::half_from_linear(sky_.coverage()[index + i]);
             }
         }
     });
-    return half_;
 }
 
 }  // namespace relume::net

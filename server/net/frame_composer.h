@@ -14,8 +14,8 @@
 
 namespace relume::net {
 
-// Linear radiance, premultiplied where transparent. Not thread-safe; spreads its work over
-// oneTBB.
+// Goes through the image a few tiles at a time, from sums to what is encoded, so that pixels in
+// between stay in the cache. Not thread-safe; spreads its work over oneTBB.
 class FrameComposer {
   public:
     FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height);
@@ -23,24 +23,30 @@ class FrameComposer {
     // What is behind the scene from now on. The rig is looked up only in mode `environment`, at
     // its full resolution, once per pixel that sees it.
     void set_background(const wire::Background& background, const light::LightRig& rig);
-
-    // Puts session's image and background together.
-    void compose(const engine::Session& session);
-
-    // Of the last `compose`: interleaved, row by row from the top, 3·width·height.
-    [[nodiscard]] std::span<const float> rgb() const { return rgb_; }
     [[nodiscard]] bool has_alpha() const { return has_alpha_; }
-    // Code values for a JPEG, over black where transparent.
-    void write_codes(const DisplayTable& table, std::span<std::uint8_t> codes) const;
-    [[nodiscard]] const wire::HalfImage& half_image();
+
+    // Puts the session's image and the background together, as code values for a JPEG, over
+    // black where transparent.
+    void compose_codes(const engine::Session& session, const DisplayTable& display);
+    // Of the last `compose_codes`: interleaved, row by row from the top, 3·width·height.
+    [[nodiscard]] std::span<const std::uint8_t> codes() const { return codes_; }
+
+    // The same as linear radiance in half floats, premultiplied where transparent.
+    void compose_half(const engine::Session& session);
+    [[nodiscard]] const wire::HalfImage& half_image() const { return half_; }
 
   private:
+    template <typename Take>
+    void for_each_row(const engine::Session& session, const Take& take) const;
+    // To the pixels of a row from x on.
+    void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
+
     const SkyPixels& sky_;
     std::uint32_t width_;
     std::uint32_t height_;
     bool has_alpha_ = false;
     std::vector<Imath::V3f> background_;  // of every sky pixel, times its visible part
-    std::vector<float> rgb_;
+    std::vector<std::uint8_t> codes_;
     wire::HalfImage half_;
 };
 

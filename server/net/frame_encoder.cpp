@@ -28,10 +28,8 @@ SharedImageFrame FrameEncoder::encode(const Picture& picture) {
 }
 
 void FrameEncoder::append_jpeg(const Picture& picture, std::vector<std::byte>& bytes) {
-    codes_.resize(picture.composer->rgb().size());
-    picture.composer->write_codes(*picture.display, codes_);
-    const auto payload =
-        jpeg_.encode(codes_, picture.header.width, picture.header.height, picture.jpeg_quality);
+    const auto payload = jpeg_.encode(picture.composer->codes(), picture.header.width,
+                                      picture.header.height, picture.jpeg_quality);
     bytes.insert(bytes.end(), payload.begin(), payload.end());
 }
 

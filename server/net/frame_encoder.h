@@ -27,7 +27,6 @@ class FrameEncoder {
     Metrics& metrics_;
     JpegEncoder jpeg_;
     wire::HalfImageEncoder half_;
-    std::vector<std::uint8_t> codes_;
 };
 
 }  // namespace relume::net

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "protocol/wire/image_header.h"
-#include "server/net/display_table.h"
 
 #include <memory>
 
@@ -14,9 +13,9 @@ struct Picture {
     // All but what encoding tells: its time and the payload's length.
     wire::ImageHeader header;
     int jpeg_quality = 0;  // of a JPEG
-    // Holds the pixels; composes nothing else before the picture is encoded.
-    std::shared_ptr<FrameComposer> composer;
-    std::shared_ptr<const DisplayTable> display;
+    // Holds the pixels, as the encoding takes them; composes nothing else before the picture is
+    // encoded.
+    std::shared_ptr<const FrameComposer> composer;
 };
 
 }  // namespace relume::net

@@ -81,10 +81,9 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     if (!state_ || state_->background != state.background ||
         (rig_changed && sees_environment)) {
         composer_->set_background(state.background, rig_);
-        composed_ = false;
     }
     if (!state_ || state_->display != state.display) {
-        display_ = std::make_shared<const DisplayTable>(state.display);
+        display_ = std::make_unique<const DisplayTable>(state.display);
     }
     session_.set_strategy(state.strategy);
     state_ = state;
@@ -137,10 +136,7 @@ void Relighter::stepped(const engine::StepReport& step, Clock::duration spent) {
     relight_time_ += spent;
     applied_ += step.applied;
     remaining_ = step.remaining;
-    if (step.image_changed) {
-        composed_ = false;
-        image_changed_ = true;
-    }
+    image_changed_ = image_changed_ || step.image_changed;
 }
 
 wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
@@ -157,22 +153,25 @@ wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
     return budget;
 }
 
-void Relighter::compose_if_changed() {
-    if (composed_) {
-        return;
-    }
+void Relighter::compose(wire::ImageEncoding encoding) {
     const Clock::time_point begin = Clock::now();
-    composer_->compose(session_);
+    const bool moves = encoding == wire::ImageEncoding::jpeg;
+    if (moves) {
+        composer_->compose_codes(session_, *display_);
+    } else {
+        composer_->compose_half(session_);
+    }
     const Clock::duration spent = Clock::now() - begin;
-    composed_ = true;
     metrics_.observe_compose(seconds(spent));
-    blend(compose_ms_, milliseconds(spent));
+    if (moves) {
+        blend(compose_ms_, milliseconds(spent));
+    }
 }
 
 Picture Relighter::picture(const ImageStamp& stamp,
                            wire::ImageEncoding encoding,
                            int jpeg_quality) {
-    compose_if_changed();
+    compose(encoding);
     const transport::TileGrid& image = scene_->engine->image();
     const bool exact = session_.exact();
     Picture picture{
@@ -193,8 +192,7 @@ Picture Relighter::picture(const ImageStamp& stamp,
                    .payload_bytes = 0,
                    .coefficients_remaining = exact ? 0 : remaining_},
         .jpeg_quality = jpeg_quality,
-        .composer = composer_,
-        .display = display_};
+        .composer = composer_};
     image_changed_ = false;
     relight_time_ = {};
     applied_ = 0;

@@ -68,7 +68,7 @@ class Relighter {
                  const NamedEnvironments& environments,
                  std::vector<wire::ErrorMessage>& problems);
     void stepped(const engine::StepReport& step, Clock::duration spent);
-    void compose_if_changed();
+    void compose(wire::ImageEncoding encoding);
     // For relighting, of all the milliseconds that so many sessions take together.
     [[nodiscard]] wire::Budget budget_for_relighting(std::size_t sessions) const;
 
@@ -82,7 +82,7 @@ class Relighter {
     light::LightRig rig_;
     light::LightCubemap cubemap_;
     std::vector<float> coefficients_;
-    std::shared_ptr<const DisplayTable> display_;
+    std::unique_ptr<const DisplayTable> display_;
 
     // Running means of what is not relighting.
     double lighting_ms_ = 0;  // of a new state
@@ -90,7 +90,6 @@ class Relighter {
     double encode_ms_ = 0;
     bool lighting_is_new_ = false;
 
-    bool composed_ = false;
     bool image_changed_ = true;
     // Since the last image:
     Clock::duration relight_time_{};

@@ -11,6 +11,7 @@ SkyPixels::SkyPixels(const transport::Transport& transport) {
                                       static_cast<float>(image.height);
     coverage_.reserve(std::size_t{image.width} * image.height);
     for (std::uint32_t y = 0; y < image.height; ++y) {
+        row_begins_.push_back(runs_.size());
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const transport::Receiver receiver = image.receiver_from_pixel(x, y);
             const float coverage =
@@ -24,12 +25,25 @@ SkyPixels::SkyPixels(const transport::Transport& transport) {
                 static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, image);
             // A pixel of the image plane at distance 1 seen under the angle θ: area · cos³ θ.
             const float cosine = direction.dot(camera.forward);
-            pixels_.push_back({.index = y * image.width + x,
-                               .visible = 1 - coverage,
-                               .direction = direction,
-                               .footprint_sr = plane_area_of_pixel * cosine * cosine * cosine});
+            append({.index = y * image.width + x,
+                    .visible = 1 - coverage,
+                    .direction = direction,
+                    .footprint_sr = plane_area_of_pixel * cosine * cosine * cosine},
+                   x);
         }
     }
+    row_begins_.push_back(runs_.size());
+}
+
+void SkyPixels::append(const SkyPixel& pixel, std::uint32_t x) {
+    const bool row_has_run = runs_.size() > row_begins_.back();
+    if (row_has_run && runs_.back().x + runs_.back().count == x) {
+        ++runs_.back().count;
+    } else {
+        runs_.push_back(
+            {.x = x, .count = 1, .place = static_cast<std::uint32_t>(pixels_.size())});
+    }
+    pixels_.push_back(pixel);
 }
 
 }  // namespace relume::net

@@ -10,8 +10,7 @@ ImagePipeline::ImagePipeline(std::shared_ptr<const engine::Scene> scene)
       sky_(scene_->transport()),
       session_(scene_, wire::Strategy{}),
       composer_(sky_, scene_->image().width, scene_->image().height),
-      display_(wire::Display{}),
-      codes_(std::size_t{3} * scene_->image().width * scene_->image().height) {}
+      display_(wire::Display{}) {}
 
 ImagePipeline::~ImagePipeline() {
     encoding_.wait();
@@ -27,12 +26,12 @@ void ImagePipeline::turn_light(std::size_t number) {
 void ImagePipeline::begin_encoding() {
     encoding_.wait();
     composer_.set_background(wire::Background{}, rig_);
-    composer_.compose(session_);
+    composer_.compose_codes(session_, display_);
     encoding_.run([this] {
-        composer_.write_codes(display_, codes_);
-        jpeg_bytes_ =
-            jpeg_.encode(codes_, scene_->image().width, scene_->image().height, kMovingQuality)
-                .size();
+        jpeg_bytes_ = jpeg_
+                          .encode(composer_.codes(), scene_->image().width,
+                                  scene_->image().height, kMovingQuality)
+                          .size();
     });
 }
 

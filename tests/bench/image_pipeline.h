@@ -52,7 +52,6 @@ class ImagePipeline {
     light::LightRig rig_;
     light::LightCubemap cubemap_;
     std::vector<float> coefficients_;
-    std::vector<std::uint8_t> codes_;
     std::size_t jpeg_bytes_ = 0;
     tbb::task_group encoding_;
 };

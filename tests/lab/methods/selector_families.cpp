@@ -29,7 +29,7 @@ class SelectorContestant final : public Contestant {
 
     void set_light(const ImageLight& light) override { lighting_.set_target(light.haar); }
     Step step() override {
-        lit_.set_nearly(lighting_.target());
+        lit_.set_nearly(lighting_.target(), engine::kSurelyNegligible);
         error_.set_target(lit_);
         ranking_.rank(*scene_, lighting_, scene_->weights(priority_));
         plan_.bands_to_reset = selector_->bands_to_reset(

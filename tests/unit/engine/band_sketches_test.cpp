@@ -87,7 +87,7 @@ TEST(BandSketches, LeaveOutOnlyWhatDoesNotCount) {
     LitColumns lit(scene);
     lit.set(lighting);
     whole.set(lit);
-    lit.set_nearly(lighting);
+    lit.set_nearly(lighting, kSurelyNegligible);
     nearly.set(lit);
     const auto all = sum_of(whole);
     auto left_out = sum_of(nearly);

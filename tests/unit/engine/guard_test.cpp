@@ -27,7 +27,7 @@ class GuardTest : public testing::Test {
     const Plan& decide(const std::vector<float>& light, const SelectionBudget& budget) {
         lighting_.set_target(light);
         ranking_.rank(scene_, lighting_, scene_.weights(wire::Priority::benefit));
-        lit_.set_nearly(light);
+        lit_.set_nearly(light, kSurelyNegligible);
         return guard_.decide(lighting_, lit_, ranking_, budget);
     }
     void carry_out(const Plan& plan) {
