@@ -35,6 +35,12 @@ constexpr bool has_band(std::uint32_t bands, std::uint32_t band) {
     return (bands & band_bit(band)) != 0;
 }
 
+// Half an ε for the additions and half a one for the amounts, which err alike all over the
+// image.
+double error_from(double squared_norms) {
+    return std::numeric_limits<float>::epsilon() * std::sqrt(squared_norms);
+}
+
 }  // namespace
 
 void BandImages::Drift::set_norm(double measured) {
@@ -323,14 +329,21 @@ std::uint64_t BandImages::bytes_of(std::span<const ColumnChange> changes) const 
     return bytes;
 }
 
-double BandImages::rounding_error() const {
+double BandImages::rounding_error_of_total() const {
+    return error_from(drift_.back().squared_norms);
+}
+
+double BandImages::squared_norms_of_band(std::uint32_t band) const {
+    const Drift& drift = drift_[band];
+    return drift.squared_norms + drift.cancelled_norm * drift.cancelled_norm;
+}
+
+double BandImages::rounding_error_of_bands() const {
     double squared_norms = 0;
-    for (const Drift& drift : drift_) {
-        squared_norms += drift.squared_norms;
+    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+        squared_norms += squared_norms_of_band(band);
     }
-    // Half an ε for the additions and half a one for the amounts, which err alike all over the
-    // image.
-    return std::numeric_limits<float>::epsilon() * std::sqrt(squared_norms);
+    return error_from(squared_norms);
 }
 
 void BandImages::renew_total() {
@@ -352,11 +365,10 @@ void BandImages::renew_total() {
             }
         });
     take_measured_norms(all_images);
-    double squared_norms = 0;
     for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-        squared_norms += cancelled_norm(band) * cancelled_norm(band);
+        drift_[band].cancelled_norm = cancelled_norm(band);
     }
-    drift_.back().squared_norms = squared_norms;
+    drift_.back().squared_norms = 0;
 }
 
 double BandImages::cancelled_norm(std::uint32_t band) const {
@@ -366,13 +378,9 @@ double BandImages::cancelled_norm(std::uint32_t band) const {
 
 std::uint32_t BandImages::most_drifted_band() const {
     std::uint32_t most = 0;
-    double largest = 0;
-    for (std::uint32_t band = 0; band < bands_.size(); ++band) {
-        const double cancelled = cancelled_norm(band);
-        const double squared_norms = drift_[band].squared_norms + cancelled * cancelled;
-        if (squared_norms > largest) {
+    for (std::uint32_t band = 1; band < bands_.size(); ++band) {
+        if (squared_norms_of_band(band) > squared_norms_of_band(most)) {
             most = band;
-            largest = squared_norms;
         }
     }
     return most;

@@ -33,13 +33,16 @@ class BandImages {
     // Of the columns that the last update added, those taken back among them.
     [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
 
-    // Estimated rounding error left in the total by additions since it and the bands' images
-    // were last made from nothing, as an L2 norm: of each ε·√(Σ_updates ‖image‖²).
-    [[nodiscard]] double rounding_error() const;
-    // Makes the total anew from the bands' images and the loose columns. Where these are large
-    // and nearly cancel, an error is left that the band alone can be blamed for.
+    // Estimated rounding error that additions have left in the total since it was last made, as
+    // an L2 norm, ε·√(Σ_updates ‖total‖²).
+    [[nodiscard]] double rounding_error_of_total() const;
+    // Makes the total anew from the bands' images and the loose columns.
     void renew_total();
-    // The band to blame most for what is left of the error when the total has been renewed.
+    // The same of the bands' images, which no making anew of the total removes; and where loose
+    // columns take back much of a band's image, what that leaves of it (known from the last
+    // renewal of the total on).
+    [[nodiscard]] double rounding_error_of_bands() const;
+    // The band to blame most for it.
     [[nodiscard]] std::uint32_t most_drifted_band() const;
     // Makes the band's image from nothing, of all that is shown of the band, and the total
     // anew.
@@ -75,6 +78,7 @@ class BandImages {
         double known_norm = 0;       // when it was last measured, or begun from nothing
         unsigned updates_since = 0;  // it was known
         double squared_norms = 0;    // Σ_updates
+        double cancelled_norm = 0;   // of a band, when the total was last renewed
 
         // Made from nothing, nobody knows how large.
         [[nodiscard]] static Drift of_unknown_norm() { return {.updates_since = ~0U}; }
@@ -109,6 +113,7 @@ class BandImages {
     [[nodiscard]] double measured_norm(std::size_t image) const;
     // Of the part of a band's image that loose columns may have taken back.
     [[nodiscard]] double cancelled_norm(std::uint32_t band) const;
+    [[nodiscard]] double squared_norms_of_band(std::uint32_t band) const;
     [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
     [[nodiscard]] std::uint64_t bytes_of(std::span<const ColumnChange> changes) const;
     // Sums of a block and, as they lie one after the other, of those that follow.
