@@ -4,13 +4,6 @@
 #include <tuple>
 
 namespace relume::engine {
-namespace {
-
-// As many bytes of columns as this many images of sums may be loose in a band.
-constexpr std::uint64_t kLooseImages = 4;
-
-}  // namespace
-
 LooseColumns::LooseColumns(const Scene& scene)
     : scene_(&scene),
       most_bytes_(kLooseImages * scene.sum_count() * sizeof(float)),
@@ -33,13 +26,12 @@ void LooseColumns::update(std::uint32_t bands_to_clear,
     };
     split.clear();
     next_.clear();
-    std::fill(bytes_.begin(), bytes_.end(), 0);
     auto loose = columns_.cbegin();
     const auto pass_loose = [&] {
         if (is_cleared(*loose)) {
             take_back(*loose, split);
         } else {
-            keep(*loose);
+            next_.push_back(*loose);
         }
         ++loose;
     };
@@ -60,18 +52,20 @@ void LooseColumns::update(std::uint32_t bands_to_clear,
     columns_.swap(next_);
 }
 
-void LooseColumns::take_back(const ColumnChange& loose, Split& split) const {
+void LooseColumns::take_back(const ColumnChange& loose, Split& split) {
     // What the band's image held of the column goes with that image.
     split.total_alone.push_back({.column = loose.column, .from = loose.to, .to = loose.from});
+    bytes_of_band(loose) -= scene_->transport().column_bytes(loose.column);
 }
 
 void LooseColumns::change(const ColumnChange& change, Split& split) {
-    if (bytes_[scene_->bands()[change.column]] > most_bytes_) {
+    if (bytes_of_band(change) > most_bytes_) {
         split.total_and_band.push_back(change);
         return;
     }
     split.total_alone.push_back(change);
-    keep(change);
+    next_.push_back(change);
+    bytes_of_band(change) += scene_->transport().column_bytes(change.column);
 }
 
 void LooseColumns::change_again(const ColumnChange& loose,
@@ -87,24 +81,27 @@ void LooseColumns::change_again(const ColumnChange& loose,
         }
     }
     split.total_alone.push_back(added);
-    if (!left.is_nothing()) {
-        keep(left);
+    if (left.is_nothing()) {
+        bytes_of_band(left) -= scene_->transport().column_bytes(left.column);
+    } else {
+        next_.push_back(left);
     }
 }
 
-void LooseColumns::keep(const ColumnChange& loose) {
-    next_.push_back(loose);
-    bytes_[scene_->bands()[loose.column]] += scene_->transport().column_bytes(loose.column);
+std::uint64_t& LooseColumns::bytes_of_band(const ColumnChange& of) {
+    return bytes_[scene_->bands()[of.column]];
 }
 
 void LooseColumns::clear(std::uint32_t band) {
     const auto of_band = changes_of_band(columns_, scene_->bands(), band);
     const auto first = columns_.begin() + (of_band.data() - columns_.data());
     columns_.erase(first, first + static_cast<std::ptrdiff_t>(of_band.size()));
+    bytes_[band] = 0;
 }
 
 void LooseColumns::clear() {
     columns_.clear();
+    std::fill(bytes_.begin(), bytes_.end(), 0);
 }
 
 }  // namespace relume::engine

@@ -26,8 +26,9 @@ class LooseColumns {
     };
     // Bands of the mask begin anew, whose images the caller takes away; the changes, ordered by
     // band and index, are relative to that. What is loose in these bands is taken back, in one
-    // with what comes new of the same column. Columns are loose until those of a band have more
-    // bytes than a few images; what changes beyond goes into its band's image too.
+    // with what comes new of the same column. Columns of a band are loose until they have more
+    // bytes than kLooseImages images of sums; what else changes goes into its band's image too.
+    static constexpr std::uint64_t kLooseImages = 4;
     void update(std::uint32_t bands_to_clear,
                 std::span<const ColumnChange> changes,
                 Split& split);
@@ -39,19 +40,19 @@ class LooseColumns {
     void clear();
 
   private:
-    void take_back(const ColumnChange& loose, Split& split) const;
+    void take_back(const ColumnChange& loose, Split& split);
     void change(const ColumnChange& change, Split& split);
     void change_again(const ColumnChange& loose,
                       const ColumnChange& change,
                       bool band_is_cleared,
                       Split& split);
-    void keep(const ColumnChange& loose);
+    [[nodiscard]] std::uint64_t& bytes_of_band(const ColumnChange& of);
 
     const Scene* scene_;
     std::uint64_t most_bytes_;  // of a band
     std::vector<ColumnChange> columns_;
     std::vector<ColumnChange> next_;    // what columns_ becomes, while it is worked out
-    std::vector<std::uint64_t> bytes_;  // [bands], of next_
+    std::vector<std::uint64_t> bytes_;  // [bands], of what is loose
 };
 
 }  // namespace relume::engine
