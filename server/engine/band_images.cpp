@@ -15,10 +15,9 @@
 namespace relume::engine {
 namespace {
 
-using transport::kBlockSize;
 using transport::kColours;
 
-constexpr std::size_t kSumsPerBlock = kColours * kBlockSize;
+constexpr std::size_t kSumsPerBlock = SumImage::kSumsPerBlock;
 
 template <typename Visit>
 void for_each_bit(std::uint64_t bits, const Visit& visit) {
@@ -72,19 +71,15 @@ bool BandImages::Drift::add(double norm_of_changes, std::size_t changes) {
 BandImages::BandImages(const Scene& scene)
     : scene_(&scene),
       bands_(scene.band_count()),
-      total_(scene.sum_count()),
+      total_(scene.block_count()),
       loose_(scene),
       drift_(scene.band_count() + 1),
       occupied_(scene.block_count()),
       energies_(scene.block_count() * (scene.band_count() + std::size_t{1})) {}
 
-float* BandImages::sums_of(std::vector<float>& image, std::uint32_t block) {
-    return &image[block * kSumsPerBlock];
-}
-
 void BandImages::make_band(std::uint32_t band) {
     if (bands_[band].empty()) {
-        bands_[band].resize(scene_->sum_count());
+        bands_[band] = SumImage(scene_->block_count());
     }
 }
 
@@ -162,7 +157,7 @@ void BandImages::update_shard(std::size_t shard) {
     }
     thread_local std::vector<WeightedSegment> segments;
     gather_segments(scene_->transport(), shard, step_.changes.total_alone, segments);
-    accumulate_segments(segments, count, {.sums = sums_of(total_, first), .total = nullptr});
+    accumulate_segments(segments, count, {.sums = total_.block(first), .total = nullptr});
     for (std::uint32_t band = 0; band < bands_.size(); ++band) {
         const auto of_band =
             changes_of_band(step_.changes.total_and_band, scene_->bands(), band);
@@ -172,9 +167,8 @@ void BandImages::update_shard(std::size_t shard) {
         gather_segments(scene_->transport(), shard, of_band, segments);
         for_each_bit(occupied_blocks(segments, count),
                      [&](std::uint32_t b) { occupied_[first + b] |= band_bit(band); });
-        accumulate_segments(
-            segments, count,
-            {.sums = sums_of(bands_[band], first), .total = sums_of(total_, first)});
+        accumulate_segments(segments, count,
+                            {.sums = bands_[band].block(first), .total = total_.block(first)});
     }
     for (std::uint32_t block = first; block < first + count; ++block) {
         measure(block, step_.images_to_measure);
@@ -221,7 +215,7 @@ void BandImages::rebuild_block(std::uint32_t block, std::span<const Rebuild> reb
         for (const Rebuild& rebuild : rebuilds) {
             rebuild.images->clear_band(block, band);
             members.push_back({.weights = rebuild.weights,
-                               .sums = sums_of(rebuild.images->bands_[band], block)});
+                               .sums = rebuild.images->bands_[band].block(block)});
         }
         scene.strips().multiply(block, band, std::span(members.data(), members.size()));
     }
@@ -238,7 +232,7 @@ void BandImages::renew_band(std::uint32_t band, const ColumnWeights& weights) {
     tbb::parallel_for(std::uint32_t{0}, scene_->block_count(), [&](std::uint32_t block) {
         clear_band(block, band);
         const StripMatrix::Member member{.weights = &weights,
-                                         .sums = sums_of(bands_[band], block)};
+                                         .sums = bands_[band].block(block)};
         scene_->strips().multiply(block, band, {&member, 1});
         occupied_[block] |= scene_->strips().bands_of_block(block) & band_bit(band);
     });
@@ -249,15 +243,15 @@ void BandImages::renew_band(std::uint32_t band, const ColumnWeights& weights) {
 
 void BandImages::clear_band(std::uint32_t block, std::uint32_t band) {
     if (has_band(occupied_[block], band)) {
-        std::fill_n(sums_of(bands_[band], block), kSumsPerBlock, 0.0F);
+        std::fill_n(bands_[band].block(block), kSumsPerBlock, 0.0F);
         occupied_[block] &= ~band_bit(band);
     }
 }
 
 void BandImages::remove_bands(std::uint32_t block) {
-    float* total = sums_of(total_, block);
+    float* total = total_.block(block);
     for_each_bit(occupied_[block] & step_.bands_to_remove, [&](std::uint32_t band) {
-        float* sums = sums_of(bands_[band], block);
+        float* sums = bands_[band].block(block);
         for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
             total[i] -= sums[i];
             sums[i] = 0;
@@ -270,10 +264,10 @@ void BandImages::remove_bands(std::uint32_t block) {
 }
 
 void BandImages::sum_bands(std::uint32_t block) {
-    float* total = sums_of(total_, block);
+    float* total = total_.block(block);
     std::fill_n(total, kSumsPerBlock, 0.0F);
     for_each_bit(occupied_[block], [&](std::uint32_t band) {
-        const float* sums = sums_of(bands_[band], block);
+        const float* sums = bands_[band].block(block);
         for (std::size_t i = 0; i < kSumsPerBlock; ++i) {
             total[i] += sums[i];
         }
@@ -287,7 +281,7 @@ void BandImages::measure(std::uint32_t block, std::uint32_t images) {
         const bool is_dark = !is_total && !has_band(occupied_[block], image);
         energies[image] = is_dark
                               ? 0
-                              : squared_norm({sums_of(is_total ? total_ : bands_[image], block),
+                              : squared_norm({(is_total ? total_ : bands_[image]).block(block),
                                               kSumsPerBlock});
     });
 }
@@ -359,7 +353,7 @@ void BandImages::renew_total() {
             thread_local std::vector<WeightedSegment> segments;
             gather_segments(scene_->transport(), shard, loose_.columns(), segments);
             accumulate_segments(segments, reader.block_count(),
-                                {.sums = sums_of(total_, first), .total = nullptr});
+                                {.sums = total_.block(first), .total = nullptr});
             for (std::uint32_t block = first; block < end; ++block) {
                 measure(block, all_images);
             }

@@ -5,6 +5,7 @@
 #include "server/engine/loose_columns.h"
 #include "server/engine/scene.h"
 #include "server/engine/strip_matrix.h"
+#include "server/engine/sum_image.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,7 +30,7 @@ class BandImages {
     // nothing is left where all bands were cleared.
     void update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes);
 
-    [[nodiscard]] std::span<const float> total() const { return total_; }
+    [[nodiscard]] std::span<const float> total() const { return total_.sums(); }
     // Of the columns that the last update added, those taken back among them.
     [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
 
@@ -116,12 +117,10 @@ class BandImages {
     [[nodiscard]] double squared_norms_of_band(std::uint32_t band) const;
     [[nodiscard]] double norm_of(std::span<const ColumnChange> changes) const;
     [[nodiscard]] std::uint64_t bytes_of(std::span<const ColumnChange> changes) const;
-    // Sums of a block and, as they lie one after the other, of those that follow.
-    [[nodiscard]] static float* sums_of(std::vector<float>& image, std::uint32_t block);
 
     const Scene* scene_;
-    std::vector<std::vector<float>> bands_;  // empty until something is in it
-    std::vector<float> total_;
+    std::vector<SumImage> bands_;  // empty until something is in it
+    SumImage total_;
     LooseColumns loose_;
     Step step_;
     std::uint64_t bytes_added_ = 0;
