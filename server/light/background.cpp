@@ -31,13 +31,7 @@ void Background::radiances(const LookDirections& world_directions,
                            std::span<const float> footprints_sr,
                            std::span<Imath::V3f> radiances) const {
     std::fill(radiances.begin(), radiances.end(), Imath::V3f(0));
-    LookDirections source_directions;
-    for (std::size_t i = 0; i < radiances.size(); ++i) {
-        const Imath::V3f direction =
-            Imath::V3f(world_directions.x[i], world_directions.y[i], world_directions.z[i]) *
-            source_from_world_;
-        source_directions.set(i, direction.x, direction.y, direction.z);
-    }
+    const LookDirections source_directions = rotated(world_directions);
     if (environment_) {
         add_environment(*environment_, environment_scale_, source_directions, footprints_sr,
                         radiances);
@@ -50,6 +44,19 @@ void Background::radiances(const LookDirections& world_directions,
             lights_seen({world_directions.x[i], world_directions.y[i], world_directions.z[i]},
                         footprints_sr[i]);
     }
+}
+
+// All of them, for that takes no longer than some.
+LookDirections Background::rotated(const LookDirections& world_directions) const {
+    const auto& m = source_from_world_.x;
+    const auto& [x, y, z] = world_directions;
+    LookDirections source_directions;
+    for (std::size_t i = 0; i < kLooksPerRun; ++i) {
+        source_directions.x[i] = x[i] * m[0][0] + y[i] * m[1][0] + z[i] * m[2][0];
+        source_directions.y[i] = x[i] * m[0][1] + y[i] * m[1][1] + z[i] * m[2][1];
+        source_directions.z[i] = x[i] * m[0][2] + y[i] * m[1][2] + z[i] * m[2][2];
+    }
+    return source_directions;
 }
 
 void Background::add_environment(const PrefilteredEnvironment& environment,

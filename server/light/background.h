@@ -30,6 +30,7 @@ class Background {
                                       float footprint_sr) const;
 
   private:
+    [[nodiscard]] LookDirections rotated(const LookDirections& world_directions) const;
     void add_environment(const PrefilteredEnvironment& environment,
                          const Imath::V3f& scale,
                          const LookDirections& source_directions,

@@ -5,10 +5,7 @@
 #include "server/light/padded_cubemap.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <numbers>
 
 namespace relume::light {
 
@@ -105,33 +102,14 @@ Imath::V3f lat_long_lookup(const Level& level, const MapPoint& point, float span
     return sum / static_cast<float>(taps);
 }
 
-// Between which levels of the pyramid a pixel of this size looks.
-struct LevelBlend {
-    std::size_t finer = 0;
-    float coarser_share = 0;
-};
-LevelBlend blend_for(float wanted_level, std::size_t level_count) {
-    if (!(wanted_level > 0)) {
-        return {};
-    }
-    const float level = std::min(wanted_level, static_cast<float>(level_count - 1));
-    const auto finer = static_cast<std::size_t>(level);
-    return {.finer = finer, .coarser_share = level - static_cast<float>(finer)};
-}
-
 }  // namespace
 
 void EnvironmentMap::find_points(const LookDirections& directions,
                                  std::span<const float> footprints_sr,
                                  LookPoints& points) const {
     if (layout_ == Layout::lat_long) {
-        constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
         lat_long_points(directions, footprints_sr.size(), points.places);
-        for (std::size_t i = 0; i < footprints_sr.size(); ++i) {
-            const float around = std::max(kFullTurn * points.places.cos_latitude[i], 1e-6F);
-            points.spans[i] =
-                std::min(1.0F, std::sqrt(std::max(footprints_sr[i], 0.0F)) / around);
-        }
+        footprint_spans(footprints_sr, points.places.cos_latitude, points.spans);
         return;
     }
     for (std::size_t i = 0; i < footprints_sr.size(); ++i) {
@@ -151,24 +129,23 @@ void EnvironmentMap::radiances(const LookDirections& source_directions,
     LookNumbers wanted;
     footprint_levels(footprints_sr, texel_side_radians(layout_, levels_.front().height),
                      wanted);
-    std::array<LevelBlend, kLooksPerRun> blends;
-    std::uint32_t levels_seen = 0;
+    const float coarsest = static_cast<float>(levels_.size() - 1);
+    float least = coarsest;
+    float most = 0;
     for (std::size_t i = 0; i < radiances.size(); ++i) {
-        blends[i] = footprints_sr[i] > 0 ? blend_for(wanted[i], levels_.size()) : LevelBlend{};
-        levels_seen |= std::uint32_t{1} << blends[i].finer;
-        levels_seen |= (blends[i].coarser_share > 0 ? std::uint32_t{2} : 0U) << blends[i].finer;
+        const bool is_coarser = footprints_sr[i] > 0 && wanted[i] > 0;
+        wanted[i] = is_coarser ? std::min(wanted[i], coarsest) : 0.0F;
+        least = std::min(least, wanted[i]);
+        most = std::max(most, wanted[i]);
     }
     std::fill(radiances.begin(), radiances.end(), Imath::V3f(0));
-    for (; levels_seen != 0; levels_seen &= levels_seen - 1) {
-        const auto level = static_cast<std::size_t>(std::countr_zero(levels_seen));
+    // A pixel looks between the two levels of the pyramid that are next to its size.
+    for (float level = std::floor(least); level <= std::ceil(most); ++level) {
         LookNumbers weights;
         for (std::size_t i = 0; i < radiances.size(); ++i) {
-            const LevelBlend& blend = blends[i];
-            weights[i] = blend.finer == level       ? 1 - blend.coarser_share
-                         : blend.finer + 1 == level ? blend.coarser_share
-                                                    : 0;
+            weights[i] = std::max(0.0F, 1 - std::abs(wanted[i] - level));
         }
-        add_level(levels_[level], points, weights, radiances);
+        add_level(levels_[static_cast<std::size_t>(level)], points, weights, radiances);
     }
 }
 
@@ -179,8 +156,11 @@ void EnvironmentMap::add_level(const Level& level,
     const LookLevel texels{
         .rgb = level.rgb.data(), .width = level.width, .height = level.height};
     LookTaps taps;
-    find_taps(texels, points, radiances.size(), taps);
+    const bool all_are_inside = find_taps(texels, points, radiances.size(), taps);
     add_taps(texels, taps, weights, radiances);
+    if (all_are_inside) {
+        return;
+    }
     for (std::size_t i = 0; i < radiances.size(); ++i) {
         if (taps.offsets[i] != LookTaps::kNotInside || weights[i] == 0) {
             continue;

@@ -46,6 +46,20 @@ void lat_long_points_loop(const LookDirections& directions,
     }
 }
 
+void footprint_spans_loop(const float* HWY_RESTRICT footprints_sr,
+                          const float* HWY_RESTRICT cos_latitudes,
+                          std::size_t count,
+                          float* HWY_RESTRICT spans) {
+    const hn::ScalableTag<float> d;
+    const auto full_turn = hn::Set(d, 2 * std::numbers::pi_v<float>);
+    const auto least = hn::Set(d, 1e-6F);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto around = hn::Max(hn::Mul(full_turn, hn::Load(d, cos_latitudes + i)), least);
+        const auto side = hn::Sqrt(hn::Max(hn::Load(d, footprints_sr + i), hn::Zero(d)));
+        hn::Store(hn::Min(hn::Set(d, 1.0F), hn::Div(side, around)), d, spans + i);
+    }
+}
+
 void footprint_levels_loop(const float* HWY_RESTRICT footprints_sr,
                            float side_radians,
                            std::size_t count,
@@ -66,11 +80,24 @@ namespace relume::light {
 
 HWY_EXPORT(lat_long_points_loop);
 HWY_EXPORT(footprint_levels_loop);
+HWY_EXPORT(footprint_spans_loop);
 
 void lat_long_points(const LookDirections& directions,
                      std::size_t count,
                      LatLongPoints& points) {
     HWY_DYNAMIC_DISPATCH(lat_long_points_loop)(directions, count, points);
+}
+
+void footprint_spans(std::span<const float> footprints_sr,
+                     const LookNumbers& cos_latitudes,
+                     LookNumbers& spans) {
+    alignas(64) LookNumbers footprints{};
+    std::copy(footprints_sr.begin(), footprints_sr.end(), footprints.begin());
+    alignas(64) const LookNumbers cosines = cos_latitudes;
+    alignas(64) LookNumbers all;
+    HWY_DYNAMIC_DISPATCH(footprint_spans_loop)
+    (footprints.data(), cosines.data(), footprints_sr.size(), all.data());
+    spans = all;
 }
 
 void footprint_levels(std::span<const float> footprints_sr,

@@ -36,6 +36,12 @@ void lat_long_points(const LookDirections& directions,
                      std::size_t count,
                      LatLongPoints& points);
 
+// How much of the way around the sphere pixels of these footprints span where they are, at most
+// all of it; of as many as there are footprints.
+void footprint_spans(std::span<const float> footprints_sr,
+                     const LookNumbers& cos_latitudes,
+                     LookNumbers& spans);
+
 // log2 of the footprints' sides over a side, of as many as there are footprints, up to
 // kLooksPerRun; anything where a footprint is not positive.
 void footprint_levels(std::span<const float> footprints_sr,

@@ -3,6 +3,7 @@
 #include "protocol/basis/cubemap.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <stdexcept>
 
@@ -60,10 +61,10 @@ void lighting_coefficients(const LightCubemap& cubemap,
     const std::size_t count = projection.basis().coefficient_count();
     const auto planes = cubemap.planes();
     planar_coefficients.resize(planes.size() * count);
-    for (std::size_t colour = 0; colour < planes.size(); ++colour) {
+    tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t colour) {
         projection.project_radiance(
             planes[colour], std::span(planar_coefficients).subspan(colour * count, count));
-    }
+    });
 }
 
 }  // namespace relume::light

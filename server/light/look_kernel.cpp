@@ -12,7 +12,7 @@ namespace relume::light::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void find_taps_loop(const LookLevel& level,
+bool find_taps_loop(const LookLevel& level,
                     const LookPoints& points,
                     std::size_t count,
                     LookTaps& taps) {
@@ -25,6 +25,7 @@ void find_taps_loop(const LookLevel& level,
     const auto columns = hn::Set(di, static_cast<std::int32_t>(level.width));
     const auto rows = hn::Set(di, static_cast<std::int32_t>(level.height));
     const auto before = hn::Set(di, -1);
+    bool all_are_inside = true;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const auto x = hn::Sub(hn::Mul(hn::Load(d, &points.places.x[i]), width), half);
         const auto y = hn::Sub(hn::Mul(hn::Load(d, &points.places.y[i]), height), half);
@@ -42,12 +43,15 @@ void find_taps_loop(const LookLevel& level,
             hn::RebindMask(di, hn::Le(hn::Mul(hn::Load(d, &points.spans[i]), width), one));
         const auto texel = hn::Add(hn::Mul(hn::Add(hn::Mul(face, rows), row), columns), column);
         const auto offset = hn::Add(hn::ShiftLeft<1>(texel), texel);
-        hn::Store(
-            hn::IfThenElse(hn::And(inside, narrow), offset, hn::Set(di, LookTaps::kNotInside)),
-            di, &taps.offsets[i]);
+        const auto usable = hn::And(inside, narrow);
+        // Beyond the last point whatever there is may count: it is then looked at in vain.
+        all_are_inside = all_are_inside && hn::AllTrue(di, usable);
+        hn::Store(hn::IfThenElse(usable, offset, hn::Set(di, LookTaps::kNotInside)), di,
+                  &taps.offsets[i]);
         hn::Store(hn::Sub(x, left), d, &taps.x_fractions[i]);
         hn::Store(hn::Sub(y, top), d, &taps.y_fractions[i]);
     }
+    return all_are_inside;
 }
 
 // Points asked for before their turn: a turned row crosses the map at any slope, which no
@@ -99,11 +103,11 @@ namespace relume::light {
 HWY_EXPORT(find_taps_loop);
 HWY_EXPORT(add_taps_loop);
 
-void find_taps(const LookLevel& level,
+bool find_taps(const LookLevel& level,
                const LookPoints& points,
                std::size_t count,
                LookTaps& taps) {
-    HWY_DYNAMIC_DISPATCH(find_taps_loop)(level, points, count, taps);
+    return HWY_DYNAMIC_DISPATCH(find_taps_loop)(level, points, count, taps);
 }
 
 void add_taps(const LookLevel& level,

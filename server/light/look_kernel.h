@@ -37,8 +37,8 @@ struct alignas(64) LookTaps {
     LookNumbers y_fractions;
 };
 
-// Of the first `count` points.
-void find_taps(const LookLevel& level,
+// Of the first `count` points; whether all of them lie inside.
+bool find_taps(const LookLevel& level,
                const LookPoints& points,
                std::size_t count,
                LookTaps& taps);

@@ -7,42 +7,25 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace relume::net {
 
 namespace {
 
-// Pixels of background per task: enough work to be worth a task, and few enough to spread an
-// image.
-constexpr std::size_t kGrain = 4096;
-
+// Runs of sky pixels per task: enough work to be worth one, few enough to spread an image.
+constexpr std::size_t kLooksPerTask = 64;
 // Tiles per task: their linear pixels, 48 kB, stay in the second-level cache.
 constexpr std::uint32_t kTilesPerRun = 16;
 
-template <typename Body>
-void for_ranges(std::size_t count, const Body& body) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          body(range.begin(), range.end());
-                      });
-}
-
-// What the environment shows in up to kLooksPerRun pixels.
+// What the environment shows in these pixels.
 void look(const light::Background& background,
-          std::span<const SkyPixel> pixels,
+          const SkyLooks& pixels,
           std::span<Imath::V3f> radiances) {
-    light::LookDirections directions;
-    std::array<float, light::kLooksPerRun> footprints_sr;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const Imath::V3f& direction = pixels[i].direction;
-        directions.set(i, direction.x, direction.y, direction.z);
-        footprints_sr[i] = pixels[i].footprint_sr;
-    }
-    background.radiances(directions, std::span(footprints_sr).first(pixels.size()), radiances);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        radiances[i] *= pixels[i].visible;
+    background.radiances(pixels.directions, std::span(pixels.footprints_sr).first(pixels.count),
+                         radiances);
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+        radiances[i] *= pixels.visible[i];
     }
 }
 
@@ -52,28 +35,31 @@ FrameComposer::FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uin
     : sky_(sky),
       width_(width),
       height_(height),
-      background_(sky.pixels().size(), Imath::V3f(0)),
+      background_(sky.size(), Imath::V3f(0)),
       codes_(std::size_t{3} * width * height) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
     has_alpha_ = background.mode == wire::BackgroundMode::transparent;
-    const std::span<const SkyPixel> pixels = sky_.pixels();
-    if (background.mode != wire::BackgroundMode::environment) {
-        const Imath::V3f colour = has_alpha_ ? Imath::V3f(0) : Imath::V3f(background.colour);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            background_[i] = colour * pixels[i].visible;
-        }
-        return;
-    }
+    const bool sees_environment = background.mode == wire::BackgroundMode::environment;
+    const Imath::V3f colour = has_alpha_ ? Imath::V3f(0) : Imath::V3f(background.colour);
     const light::Background lookup(rig);
-    for_ranges(pixels.size(), [&](std::size_t begin, std::size_t end) {
-        for (; begin < end; begin += light::kLooksPerRun) {
-            const std::size_t count = std::min(light::kLooksPerRun, end - begin);
-            look(lookup, pixels.subspan(begin, count),
-                 std::span(background_).subspan(begin, count));
-        }
-    });
+    const std::span<const SkyLooks> looks = sky_.looks();
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, looks.size(), kLooksPerTask),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                const std::span<Imath::V3f> seen =
+                    std::span(background_).subspan(k * light::kLooksPerRun, looks[k].count);
+                if (sees_environment) {
+                    look(lookup, looks[k], seen);
+                    continue;
+                }
+                for (std::size_t i = 0; i < seen.size(); ++i) {
+                    seen[i] = colour * looks[k].visible[i];
+                }
+            }
+        });
 }
 
 // Calls take(index of the first pixel, linear pixels) for parts of rows that together are the

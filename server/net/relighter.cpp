@@ -23,7 +23,7 @@ light::AreaLight area_light_from(const wire::AreaLight& light) {
 
 // So much of an image's time goes to relighting, however slow the rest is: in less, hardly more
 // than choosing gets done, and pictures come sooner but far off.
-constexpr double kLeastShare = 0.35;
+constexpr double kLeastShare = 0.2;
 
 void blend(double& mean, double newest) {
     constexpr double kNewest = 0.2;

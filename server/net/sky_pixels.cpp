@@ -25,25 +25,31 @@ SkyPixels::SkyPixels(const transport::Transport& transport) {
                 static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, image);
             // A pixel of the image plane at distance 1 seen under the angle θ: area · cos³ θ.
             const float cosine = direction.dot(camera.forward);
-            append({.index = y * image.width + x,
-                    .visible = 1 - coverage,
-                    .direction = direction,
-                    .footprint_sr = plane_area_of_pixel * cosine * cosine * cosine},
-                   x);
+            append(x, direction, plane_area_of_pixel * cosine * cosine * cosine, 1 - coverage);
         }
     }
     row_begins_.push_back(runs_.size());
 }
 
-void SkyPixels::append(const SkyPixel& pixel, std::uint32_t x) {
+void SkyPixels::append(std::uint32_t x,
+                       const Imath::V3f& direction,
+                       float footprint_sr,
+                       float visible) {
     const bool row_has_run = runs_.size() > row_begins_.back();
     if (row_has_run && runs_.back().x + runs_.back().count == x) {
         ++runs_.back().count;
     } else {
-        runs_.push_back(
-            {.x = x, .count = 1, .place = static_cast<std::uint32_t>(pixels_.size())});
+        runs_.push_back({.x = x, .count = 1, .place = static_cast<std::uint32_t>(size_)});
     }
-    pixels_.push_back(pixel);
+    if (looks_.empty() || looks_.back().count == light::kLooksPerRun) {
+        looks_.emplace_back();
+    }
+    SkyLooks& looks = looks_.back();
+    looks.directions.set(looks.count, direction.x, direction.y, direction.z);
+    looks.footprints_sr[looks.count] = footprint_sr;
+    looks.visible[looks.count] = visible;
+    ++looks.count;
+    ++size_;
 }
 
 }  // namespace relume::net

@@ -2,27 +2,30 @@
 #pragma once
 
 #include "protocol/transport/transport.h"
+#include "server/light/lat_long_kernel.h"
 
 #include <Imath/ImathVec.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace relume::net {
 
-struct SkyPixel {
-    std::uint32_t index = 0;  // y·width + x
-    float visible = 1;        // 1 − coverage, in (0, 1]
-    Imath::V3f direction;     // unit, in the world, through the pixel's centre
-    float footprint_sr = 0;   // solid angle of the pixel
+// Some of them, one after the other as they lie in the image, as they are looked up.
+struct SkyLooks {
+    light::LookDirections directions;    // unit, in the world, through the pixels' centres
+    light::LookNumbers footprints_sr{};  // solid angles of the pixels
+    light::LookNumbers visible{};        // 1 − coverage, in (0, 1]
+    std::uint32_t count = 0;             // kLooksPerRun, but for the last
 };
 
 // Pixels of one row side by side.
 struct SkyRun {
     std::uint32_t x = 0;  // of the first
     std::uint32_t count = 0;
-    std::uint32_t place = 0;  // of the first in pixels()
+    std::uint32_t place = 0;  // of the first among all
 };
 
 // Immutable; shared by all rooms of a scene.
@@ -30,8 +33,9 @@ class SkyPixels {
   public:
     explicit SkyPixels(const transport::Transport& transport);
 
-    // By index.
-    [[nodiscard]] std::span<const SkyPixel> pixels() const { return pixels_; }
+    // Row by row from the top.
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::span<const SkyLooks> looks() const { return looks_; }
     // The same, of a row from left to right.
     [[nodiscard]] std::span<const SkyRun> runs_of_row(std::uint32_t y) const {
         return std::span(runs_).subspan(row_begins_[y], row_begins_[y + 1] - row_begins_[y]);
@@ -40,9 +44,13 @@ class SkyPixels {
     [[nodiscard]] std::span<const float> coverage() const { return coverage_; }
 
   private:
-    void append(const SkyPixel& pixel, std::uint32_t x);
+    void append(std::uint32_t x,
+                const Imath::V3f& direction,
+                float footprint_sr,
+                float visible);
 
-    std::vector<SkyPixel> pixels_;
+    std::size_t size_ = 0;
+    std::vector<SkyLooks> looks_;
     std::vector<SkyRun> runs_;
     std::vector<std::size_t> row_begins_;  // [height + 1], in runs_
     std::vector<float> coverage_;
