@@ -14,8 +14,8 @@ namespace {
 // Rounding may leave at most this much of the image's norm before the total is made anew, which
 // is cheap, or a band, which is not. The estimate takes errors for random; where a drag goes to
 // and fro they repeat, and in dark pixels they are some ten times as large.
-constexpr double kLargestDriftOfTotal = 1e-6;
-constexpr double kLargestDriftOfBands = 2e-6;
+constexpr double kLargestDriftOfTotal = 3e-6;
+constexpr double kLargestDriftOfBands = 5e-6;
 // At rest the full product begins at once when it takes no longer than so many images.
 constexpr std::uint64_t kImagesForFullProduct = 4;
 // And where what is left cannot be seen, so that nobody waits for it in small steps.
