@@ -16,8 +16,8 @@ constexpr std::uint64_t kFewestBlocks = 16;
 }  // namespace
 
 void FullProduct::start(std::span<const float> lighting, std::uint32_t first_block) {
-    if (images_.empty()) {
-        images_.push_back(scene_->spare_images().take(*scene_));
+    if (!images_) {
+        images_ = scene_->spare_images().take(*scene_);
     }
     scene_->strips().set_weights(scene_->transport(), lighting, weights_);
     next_block_ = first_block;
@@ -26,9 +26,8 @@ void FullProduct::start(std::span<const float> lighting, std::uint32_t first_blo
 
 void FullProduct::abandon() {
     blocks_left_ = 0;
-    if (!images_.empty()) {
-        scene_->spare_images().give(std::move(images_.front()));
-        images_.clear();
+    if (images_) {
+        scene_->spare_images().give(std::move(images_));
     }
 }
 
@@ -60,8 +59,7 @@ std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::ui
     boost::container::small_vector<BandImages::Rebuild, kMaxBatchMembers> rebuilds;
     for (FullProduct* product : products) {
         most = std::min(most, product->blocks_left_);
-        rebuilds.push_back(
-            {.images = &product->images_.front(), .weights = &product->weights_});
+        rebuilds.push_back({.images = product->images_.get(), .weights = &product->weights_});
     }
     std::uint32_t count = 0;
     std::uint64_t read = 0;
@@ -78,7 +76,7 @@ std::uint64_t FullProduct::sweep(std::span<FullProduct* const> products, std::ui
 }
 
 void FullProduct::exchange(BandImages& images) {
-    std::swap(images, images_.front());
+    std::swap(images, *images_);
     abandon();
 }
 

@@ -7,8 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace relume::engine {
 
@@ -43,7 +43,7 @@ class FullProduct {
     static std::uint64_t sweep(std::span<FullProduct* const> products, std::uint64_t bytes);
 
     const Scene* scene_;
-    std::vector<BandImages> images_;  // one, borrowed, while it runs
+    std::unique_ptr<BandImages> images_;  // borrowed while it runs
     ColumnWeights weights_;
     std::uint32_t next_block_ = 0;
     std::uint32_t blocks_left_ = 0;

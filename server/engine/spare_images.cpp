@@ -1,30 +1,29 @@
 #include "server/engine/spare_images.h"
 
-#include <utility>
-
 namespace relume::engine {
 
-SpareImages::SpareImages() {
-    spare_.reserve(kMaxBatchMembers);
+SpareImages::~SpareImages() {
+    for (std::atomic<BandImages*>& place : spare_) {
+        delete place.load();
+    }
 }
 
-BandImages SpareImages::take(const Scene& scene) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (!spare_.empty()) {
-            BandImages images = std::move(spare_.back());
-            spare_.pop_back();
-            return images;
+std::unique_ptr<BandImages> SpareImages::take(const Scene& scene) {
+    for (std::atomic<BandImages*>& place : spare_) {
+        if (BandImages* const images = place.exchange(nullptr)) {
+            return std::unique_ptr<BandImages>(images);
         }
     }
-    return BandImages(scene);
+    return std::make_unique<BandImages>(scene);
 }
 
-void SpareImages::give(BandImages&& images) {
-    BandImages given = std::move(images);  // freed, if they are, without the lock
-    const std::lock_guard lock(mutex_);
-    if (spare_.size() < kMaxBatchMembers) {
-        spare_.push_back(std::move(given));
+void SpareImages::give(std::unique_ptr<BandImages> images) {
+    for (std::atomic<BandImages*>& place : spare_) {
+        BandImages* nothing = nullptr;
+        if (place.compare_exchange_strong(nothing, images.get())) {
+            static_cast<void>(images.release());
+            return;
+        }
     }
 }
 

@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::uint32_t kColumns = 30;
 constexpr float kJumpDegrees = 110;
+// Of the image: by so much it may move when sums are made anew, whatever columns are taken, and
+// be they black.
+constexpr double kRounding = 1e-5;
 
 struct Rest {
     double lighting_rise = 0;  // largest rise of ‖L−L̃‖₁ from image to image, of ‖L‖₁
@@ -75,9 +78,11 @@ Rest rest_of(const std::shared_ptr<const engine::Scene>& scene,
         rest.lighting_rise = std::max(rest.lighting_rise, (next_missing - missing) / all);
         rest.images += 1;
         rest.rising += next_error > error ? 1 : 0;
-        rest.beyond_triangle = std::max(
-            rest.beyond_triangle, (next_error - error) * exact_norm /
-                                      longest_step(*scene, shown, session.approximation()));
+        if (const double rise = next_error - error - kRounding; rise > 0) {
+            rest.beyond_triangle = std::max(
+                rest.beyond_triangle,
+                rise * exact_norm / longest_step(*scene, shown, session.approximation()));
+        }
         if (next_error / error > rest.image_rise) {
             rest.image_rise = next_error / error;
             rest.before = before;
