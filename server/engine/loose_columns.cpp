@@ -4,6 +4,7 @@
 #include <tuple>
 
 namespace relume::engine {
+
 LooseColumns::LooseColumns(const Scene& scene)
     : scene_(&scene),
       most_bytes_(kLooseImages * scene.sum_count() * sizeof(float)),

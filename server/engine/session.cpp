@@ -25,6 +25,9 @@ constexpr double kUnseenError = 1e-3;
 // error that these state. At most so much of the image, for the next error may be less than the
 // last.
 constexpr double kLeastTelling = 20;
+// From one image to the next by so much before the sketches are made anew, which the budget
+// does not foresee.
+constexpr double kErrorMayFall = 8;
 constexpr double kLargestNegligible = 5e-4;
 
 // And where so many sessions rest together: they have all of the transport in common then, and
@@ -190,8 +193,8 @@ void Session::carry_out(std::span<const PlannedTurn> turns) {
 }
 
 void Session::set_target_of_estimates(double expected_error) {
-    negligible_ =
-        std::clamp(expected_error / (2 * kLeastTelling), kSurelyNegligible, kLargestNegligible);
+    negligible_ = std::clamp(expected_error / (kErrorMayFall * kLeastTelling),
+                             kSurelyNegligible, kLargestNegligible);
     lit_.set_nearly(lighting_.target(), negligible_);
     error_.set_target(lit_);
 }
