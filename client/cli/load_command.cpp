@@ -48,6 +48,8 @@ void add_load_command(CLI::App& app) {
     command->add_option("--seconds", load.seconds, "how long to drag")
         ->check(CLI::Range(0.1, 86400.0))
         ->capture_default_str();
+    command->add_option("--budget-ms", load.budget_ms, "milliseconds asked for each image")
+        ->check(CLI::Range(0.1, 1000.0));
     command->add_option("--threads", load.threads, "threads for all sessions together")
         ->check(CLI::Range(std::size_t{1}, std::size_t{64}))
         ->capture_default_str();

@@ -92,6 +92,7 @@ class Visitor {
     std::uint64_t bytes = 0;
     bool opened = false;
     std::vector<double> edit_to_image_ms;
+    std::vector<double> stated_errors;     // of images that answered an edit
     std::optional<double> first_image_ms;  // since it began to open
     std::map<std::string, std::size_t> errors;
     std::string early_end;  // empty when it lasted
@@ -140,7 +141,11 @@ class Visitor {
                 return;
             }
             yaw_degrees_ += kDegreesPerEdit;
-            session_.send_edit({{"rotation", {{"yaw_degrees", yaw_degrees_}}}});
+            nlohmann::json patch = {{"rotation", {{"yaw_degrees", yaw_degrees_}}}};
+            if (edits == 0 && options_.budget_ms) {
+                patch["budget"]["milliseconds"] = *options_.budget_ms;
+            }
+            session_.send_edit(patch);
             ++edits;
             next_edit_ += from_seconds(1 / options_.rate_hz);
             drag();
@@ -160,6 +165,9 @@ class Visitor {
         bytes += received.payload.size();
         edit_to_image_ms.insert(edit_to_image_ms.end(), received.edit_to_image_ms.begin(),
                                 received.edit_to_image_ms.end());
+        if (!received.edit_to_image_ms.empty()) {
+            stated_errors.push_back(received.header.relative_error);
+        }
     }
 
     void ended(const SessionEnd& e) {
@@ -231,6 +239,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     std::size_t exact_images = 0;
     std::uint64_t bytes = 0;
     std::vector<double> edit_to_image_ms;
+    std::vector<double> stated_errors;
     std::vector<double> first_image_ms;
     std::map<std::string, std::size_t> errors;
     std::map<std::string, std::size_t> ends;
@@ -243,6 +252,8 @@ nlohmann::json run_load_test(const LoadOptions& options) {
         bytes += visitor->bytes;
         edit_to_image_ms.insert(edit_to_image_ms.end(), visitor->edit_to_image_ms.begin(),
                                 visitor->edit_to_image_ms.end());
+        stated_errors.insert(stated_errors.end(), visitor->stated_errors.begin(),
+                             visitor->stated_errors.end());
         if (visitor->first_image_ms) {
             first_image_ms.push_back(*visitor->first_image_ms);
         }
@@ -271,6 +282,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
         {"ok", opened == count && errors.empty() && ends.empty()}};
     put_spread(result, "first_image_ms", spread_of(std::move(first_image_ms)));
     put_spread(result, "edit_to_image_ms", spread_of(std::move(edit_to_image_ms)));
+    put_spread(result, "stated_error", spread_of(std::move(stated_errors)));
     return result;
 }
 

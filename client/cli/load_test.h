@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace relume::cli {
@@ -16,14 +17,16 @@ struct LoadOptions {
     std::string token;
     std::size_t dragging = 8;
     std::size_t idle = 0;
-    double rate_hz = 30;  // edits per second of each dragging session
-    double seconds = 10;  // of dragging
+    double rate_hz = 30;              // edits per second of each dragging session
+    double seconds = 10;              // of dragging
+    std::optional<double> budget_ms;  // per image; the server's default without
     std::size_t threads = 1;
 };
 
 inline constexpr std::size_t kMaxLoadSessions = 10'000;
 
-// Counts, images per second and edit-to-image spread over all dragging sessions; "errors"
+// Counts, images per second, and over all dragging sessions the spreads of edit-to-image and of
+// the errors stated on the images that answered; "errors"
 // counts refusals by code, "ends" the sessions that did not last, by reason. "ok" when there
 // are none.
 [[nodiscard]] nlohmann::json run_load_test(const LoadOptions& options);

@@ -146,7 +146,7 @@ wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
         const double rounds = std::max(
             1.0, static_cast<double>(sessions) / tbb::this_task_arena::max_concurrency());
         const double taken =
-            rounds * (compose_ms_ + encode_ms_ + (lighting_is_new_ ? lighting_ms_ : 0));
+            rounds * (compose_ms_ + beside_ms_ + (lighting_is_new_ ? lighting_ms_ : 0));
         budget.milliseconds =
             std::max(kLeastShare * *budget.milliseconds, *budget.milliseconds - taken);
     }

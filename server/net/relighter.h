@@ -8,9 +8,9 @@
 #include "server/light/light_rig.h"
 #include "server/net/clock.h"
 #include "server/net/display_table.h"
-#include "server/net/environment.h"
 #include "server/net/frame_composer.h"
 #include "server/net/metrics.h"
+#include "server/net/named_environments.h"
 #include "server/net/picture.h"
 #include "server/net/scene_library.h"
 
@@ -20,14 +20,6 @@
 #include <vector>
 
 namespace relume::net {
-
-// The environments that a state names. `blend` is null when it names none.
-struct NamedEnvironments {
-    std::shared_ptr<Environment> environment;
-    std::shared_ptr<Environment> blend;
-
-    friend bool operator==(const NamedEnvironments&, const NamedEnvironments&) = default;
-};
 
 // Which edit an image answers, and how long that took.
 struct ImageStamp {
@@ -60,8 +52,9 @@ class Relighter {
     [[nodiscard]] Picture picture(const ImageStamp& stamp,
                                   wire::ImageEncoding encoding,
                                   int jpeg_quality);
-    // What encoding a JPEG has taken lately.
-    void encoding_took(double milliseconds) { encode_ms_ = milliseconds; }
+    // What an image takes besides being lit, relit and composed: to wait for a thread, to be
+    // encoded.
+    void takes_besides(double milliseconds) { beside_ms_ = milliseconds; }
 
   private:
     void set_rig(const wire::SessionState& state,
@@ -87,7 +80,7 @@ class Relighter {
     // Running means of what is not relighting.
     double lighting_ms_ = 0;  // of a new state
     double compose_ms_ = 0;
-    double encode_ms_ = 0;
+    double beside_ms_ = 0;
     bool lighting_is_new_ = false;
 
     bool image_changed_ = true;

@@ -84,33 +84,6 @@ void Room::broadcast_viewers_locked() {
     }
 }
 
-NamedEnvironments Room::resolve_locked(const wire::SessionState& next,
-                                       const nlohmann::json& patch) const {
-    const auto names_one = [&patch](const char* key) {
-        const auto found = patch.find(key);
-        return found != patch.end() && found->is_object() && found->contains("name");
-    };
-    const auto named = [this](const std::string& name, const char* path) {
-        std::shared_ptr<Environment> environment = library_.find(name);
-        if (!environment) {
-            throw wire::WireError(wire::ErrorCode::unknown_name, path, name,
-                                  "the name of an environment listed by /api/environments");
-        }
-        return environment;
-    };
-    NamedEnvironments resolved = environments_;
-    // Naming an upload again takes its latest version.
-    if (names_one("environment")) {
-        resolved.environment = named(next.environment.name, "/environment/name");
-    }
-    if (!next.blend.name) {
-        resolved.blend = nullptr;
-    } else if (names_one("blend")) {
-        resolved.blend = named(*next.blend.name, "/blend/name");
-    }
-    return resolved;
-}
-
 void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point read_at) {
     const std::lock_guard lock(mutex_);
     if (stopped_) {
@@ -121,12 +94,12 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
     wire::Change change{.revision = revision_ + 1,
                         .patch = wire::apply_patch(next, edit.patch, options_.limits),
                         .edit_id = {}};
-    environments_ = resolve_locked(next, change.patch);
+    environments_ = environments_after(environments_, next, change.patch, library_);
     state_ = std::move(next);
     revision_ = change.revision;
     settled_frame_.reset();
     last_edit_ = read_at;
-    rhythm_.edit_came(read_at);
+    pace_.edit_came(read_at);
     if (!untaken_edit_) {
         untaken_edit_ = read_at;
     }
@@ -174,12 +147,13 @@ class Room::Encoding : public WorkItem {
     Encoding(std::shared_ptr<Room> room, Picture picture)
         : room_(std::move(room)), picture_(std::move(picture)) {}
     void run(std::span<const std::shared_ptr<WorkItem>> /*others*/) noexcept override {
-        room_->encode(picture_);
+        room_->encode(picture_, since_);
     }
 
   private:
     const std::shared_ptr<Room> room_;
     const Picture picture_;
+    const Clock::time_point since_ = Clock::now();
 };
 
 template <typename Work>
@@ -280,7 +254,7 @@ std::optional<RoomSlice> Room::begin_slice() {
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
-    slice.encode_ms = encode_ms_;
+    slice.beside_ms = pace_.beside_slice_ms();
     return slice;
 }
 
@@ -299,7 +273,7 @@ bool Room::viewer_wants_moving_locked() const {
 void Room::end_slice(const RoomSlice& slice, SliceResult result) {
     const std::lock_guard lock(mutex_);
     running_ = false;
-    slice_took_ = Clock::now() - slice.begun_at;
+    pace_.slice_took(Clock::now() - slice.begun_at);
     at_rest_ = result.at_rest;
     for (const wire::ErrorMessage& problem : result.problems) {
         metrics_.count_error(problem.code);
@@ -312,6 +286,9 @@ void Room::end_slice(const RoomSlice& slice, SliceResult result) {
             metrics_.observe_edit_to_image(result.picture->header.edit_to_image_ms / 1000.0);
             answered_edit_ = slice.edit_read_at;
             unshown_edit_.reset();
+            if (slice.state_changed) {
+                pace_.edit_waited(slice.begun_at - slice.edit_read_at);
+            }
         }
         encoding_ = true;
         threads_.encoders.enqueue(
@@ -322,9 +299,9 @@ void Room::end_slice(const RoomSlice& slice, SliceResult result) {
     queue_next_slice_locked();
 }
 
-void Room::encode(const Picture& picture) noexcept {
+void Room::encode(const Picture& picture, Clock::time_point since) noexcept {
     try {
-        deliver(encoder_.encode(picture));
+        deliver(encoder_.encode(picture), since);
     } catch (const std::exception& reason) {
         {
             const std::lock_guard lock(mutex_);
@@ -334,15 +311,14 @@ void Room::encode(const Picture& picture) noexcept {
     }
 }
 
-void Room::deliver(const SharedImageFrame& frame) {
+void Room::deliver(const SharedImageFrame& frame, Clock::time_point since) {
     const std::lock_guard lock(mutex_);
     encoding_ = false;
     if (frame->settled() && frame->header.revision == revision_) {
         settled_frame_ = frame;
     }
     if (!frame->settled()) {
-        constexpr double kNewest = 0.2;
-        encode_ms_ += kNewest * (double{frame->header.encode_ms} - encode_ms_);
+        pace_.encoding_took(Clock::now() - since);
     }
     for (const SharedOutbox& viewer : viewers_) {
         if (viewer->put_image(frame)) {
@@ -365,11 +341,9 @@ void Room::queue_next_slice_locked() {
         threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
                                  untaken_edit_.value_or(Clock::now()));
     } else if (!at_rest_) {
-        // To relight it and to encode it: both would keep the next edit's image waiting.
-        const Clock::duration work = slice_took_ + from_milliseconds(encode_ms_);
         const Clock::time_point now = Clock::now();
         threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
-                                       rhythm_.time_for(work, now) - now);
+                                       pace_.time_to_refine(now) - now);
     } else if (!settled_frame_ && !encoding_) {
         threads_.workers.enqueue_after(shared_from_this(), WorkPriority::refinement,
                                        last_edit_ + options_.settle_delay - Clock::now());

@@ -5,12 +5,13 @@
 #include "protocol/wire/messages.h"
 #include "protocol/wire/session_state.h"
 #include "server/net/clock.h"
-#include "server/net/edit_rhythm.h"
 #include "server/net/environment_library.h"
 #include "server/net/frame_encoder.h"
 #include "server/net/metrics.h"
+#include "server/net/named_environments.h"
 #include "server/net/outbox.h"
 #include "server/net/room_images.h"
+#include "server/net/room_pace.h"
 #include "server/net/room_slice.h"
 #include "server/net/scene_library.h"
 #include "server/net/worker_pool.h"
@@ -99,14 +100,13 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     void look_who_is_ready(RoomSlice& slice) const;
     [[nodiscard]] bool viewer_wants_moving_locked() const;
     void end_slice(const RoomSlice& slice, SliceResult result);
-    void encode(const Picture& picture) noexcept;
-    void deliver(const SharedImageFrame& frame);
+    // `since`: when the picture was done.
+    void encode(const Picture& picture, Clock::time_point since) noexcept;
+    void deliver(const SharedImageFrame& frame, Clock::time_point since);
     void fail(const std::string& reason);
     void queue_next_slice_locked();
     void broadcast_viewers_locked();
     [[nodiscard]] std::string snapshot_text_locked() const;
-    [[nodiscard]] NamedEnvironments resolve_locked(const wire::SessionState& next,
-                                                   const nlohmann::json& patch) const;
 
     const std::string name_;
     const std::shared_ptr<const ServedScene> scene_;
@@ -133,9 +133,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     Clock::time_point answered_edit_;
     Clock::time_point last_edit_;
     SharedImageFrame settled_frame_;  // of the present revision only
-    EditRhythm rhythm_;
-    Clock::duration slice_took_{};  // the last one
-    double encode_ms_ = 0;          // of a JPEG, a running mean
+    RoomPace pace_;
 
     RoomImages images_;     // of the worker that runs the slice; `running_` keeps it alone
     FrameEncoder encoder_;  // of the encoder thread; `encoding_` keeps it alone

@@ -13,7 +13,7 @@ std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
     if (!relighter_) {
         relighter_ = std::make_unique<Relighter>(scene_, metrics_);
     }
-    relighter_->encoding_took(slice.encode_ms);
+    relighter_->takes_besides(slice.beside_ms);
     if (!slice.state_changed) {
         return {};
     }

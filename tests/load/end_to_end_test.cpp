@@ -312,10 +312,12 @@ TEST_F(EndToEnd, ASequenceShowsEveryEditAndEndsExact) {
 
 TEST_F(EndToEnd, ManyRoomsAreServedAtOnce) {
     const Answer answer = run({"load", "--scene", "box", "--sessions", "6", "--idle", "3",
-                               "--rate", "20", "--seconds", "1"});
+                               "--rate", "20", "--seconds", "1", "--budget-ms", "4"});
     ASSERT_EQ(answer.exit_code, 0) << answer.errors << answer.output;
     const json result = json::parse(answer.output);
     EXPECT_EQ(result.at("opened"), 9);
+    EXPECT_GE(result.at("stated_error_p50"), 0);
+    EXPECT_LT(result.at("stated_error_p50"), 1) << "images of a drag hold more than black";
     EXPECT_GT(result.at("edits"), 0);
     EXPECT_EQ(result.at("edits_shown"), result.at("edits"));
 }
