@@ -1,7 +1,8 @@
-// The accumulation kernel by itself: every encoding, on every instruction set this processor
-// has, from the second-level cache and from memory.
+// The kernels by themselves: columns of every encoding, and whole products, on every
+// instruction set this processor has, from the second-level cache and from memory.
 #include "server/engine/kernels/target.h"
 #include "tests/bench/cell_stream.h"
+#include "tests/bench/strip_stream.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -24,6 +25,15 @@ struct Working {
 constexpr Working kWorkingSets[] = {{"l2", std::size_t{512} << 10U},
                                     {"memory", std::size_t{192} << 20U}};
 
+benchmark::Counter per_second(std::uint64_t amount) {
+    return {static_cast<double>(amount), benchmark::Counter::kIsIterationInvariantRate};
+}
+
+benchmark::Counter seconds_per(std::uint64_t amount) {
+    return {static_cast<double>(amount),
+            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
 // Without a target: the specification, which RELUME_FORCE_TARGET=scalar runs. (Highway calls
 // the processor's plain instructions a target named scalar, too.)
 void run_kernel(benchmark::State& state,
@@ -40,22 +50,34 @@ void run_kernel(benchmark::State& state,
         benchmark::ClobberMemory();
     }
     hwy::SetSupportedTargetsForTest(0);
-    using Counter = benchmark::Counter;
-    const auto rate = [](double amount) {
-        return Counter(amount, Counter::kIsIterationInvariantRate);
-    };
-    const auto seconds_per = [](std::uint64_t amount) {
-        return Counter(static_cast<double>(amount),
-                       Counter::kIsIterationInvariantRate | Counter::kInvert);
-    };
-    state.counters["bytes/s"] = rate(static_cast<double>(stream.bytes()));
+    state.counters["bytes/s"] = per_second(stream.bytes());
     state.counters["s/cell"] = seconds_per(stream.cells());
     if (stream.nonzeros() != 0) {
         state.counters["s/value"] = seconds_per(stream.nonzeros());
     }
 }
 
-void register_kernel(const std::string& target_name, std::optional<std::int64_t> target) {
+void run_strip_product(benchmark::State& state,
+                       const StripKind& kind,
+                       std::size_t bytes,
+                       std::optional<std::int64_t> target) {
+    const StripStream stream(kind, bytes);
+    const StripTargets targets(kind.targets);
+    hwy::SetSupportedTargetsForTest(target.value_or(0));
+    engine::MultiplyStrips<std::int8_t>* const kernel =
+        target ? engine::multiply_strips : engine::multiply_strips_scalar;
+    for (auto _ : state) {
+        for (std::size_t run = 0; run < stream.run_count(); ++run) {
+            kernel(stream.run(run), targets.all());
+        }
+        benchmark::ClobberMemory();
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    state.counters["bytes/s"] = per_second(stream.bytes());
+    state.counters["s/strip"] = seconds_per(stream.strips() * kind.targets);
+}
+
+void register_kernels(const std::string& target_name, std::optional<std::int64_t> target) {
     for (const Working& working : kWorkingSets) {
         for (const CellKind& kind : cell_kinds()) {
             // Tags alone cannot fill the memory: 32 bytes a column.
@@ -68,6 +90,15 @@ void register_kernel(const std::string& target_name, std::optional<std::int64_t>
             benchmark::RegisterBenchmark(name.c_str(), [&kind, bytes,
                                                         target](benchmark::State& state) {
                 run_kernel(state, kind, bytes, target);
+            })->Unit(benchmark::kMicrosecond);
+        }
+        for (const StripKind& kind : strip_kinds()) {
+            const std::string name =
+                fmt::format("{}/{}/{}", target_name, working.name, kind.name);
+            const std::size_t bytes = working.bytes;
+            benchmark::RegisterBenchmark(name.c_str(), [&kind, bytes,
+                                                        target](benchmark::State& state) {
+                run_strip_product(state, kind, bytes, target);
             })->Unit(benchmark::kMicrosecond);
         }
     }
@@ -87,11 +118,11 @@ void register_all() {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         const std::string name = lower(hwy::TargetName(target));
         if (!forced || name == chosen) {
-            register_kernel(name, target);
+            register_kernels(name, target);
         }
     }
     if (!forced || engine::scalar_is_forced()) {
-        register_kernel("specification", std::nullopt);
+        register_kernels("specification", std::nullopt);
     }
     benchmark::AddCustomContext("kernel target by default", chosen);
 }
