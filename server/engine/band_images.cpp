@@ -323,6 +323,14 @@ std::uint64_t BandImages::bytes_of(std::span<const ColumnChange> changes) const 
     return bytes;
 }
 
+std::uint64_t BandImages::bytes_of_bands() const {
+    std::uint64_t bytes = loose_.columns().size_bytes();
+    for (const SumImage& band : bands_) {
+        bytes += band.empty() ? 0 : band.sums().size_bytes();
+    }
+    return bytes;
+}
+
 double BandImages::rounding_error_of_total() const {
     return error_from(drift_.back().squared_norms);
 }

@@ -33,6 +33,8 @@ class BandImages {
     [[nodiscard]] std::span<const float> total() const { return total_.sums(); }
     // Of the columns that the last update added, those taken back among them.
     [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
+    // Memory for what the bands hold, beside the total: images and loose columns.
+    [[nodiscard]] std::uint64_t bytes_of_bands() const;
 
     // Estimated rounding error that additions have left in the total since it was last made, as
     // an L2 norm, ε·√(Σ_updates ‖total‖²).

@@ -123,6 +123,7 @@ void Session::state(StepReport& report) const {
     report.remaining = exact_ ? 0 : remaining_;
     report.exact = exact_;
     report.stated_error = stated_error();
+    report.band_bytes = images_.bytes_of_bands();
 }
 
 Session::Intent Session::intend(const Share& share) {

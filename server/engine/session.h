@@ -23,7 +23,8 @@ struct StepReport {
     std::uint32_t remaining = 0;  // coefficients in which approximation and target still differ
     std::uint32_t bands_reset = 0;  // bit b: band b was reset
     std::uint64_t bytes_touched = 0;
-    double stated_error = 0;  // relative L2 of the image, estimated; 0 when exact
+    std::uint64_t band_bytes = 0;  // of memory, so that bands can begin anew
+    double stated_error = 0;       // relative L2 of the image, estimated; 0 when exact
     bool image_changed = false;
     bool exact = false;
 };

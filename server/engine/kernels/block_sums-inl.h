@@ -70,6 +70,9 @@ struct Registers {
     static constexpr std::size_t kVectors = 4;
     hn::Vec<D> red[kVectors], green[kVectors], blue[kVectors];
 
+    // Written out, for what the compiler adds by itself has not the instructions of vectors.
+    HWY_ATTR Registers() {}  // NOLINT(modernize-use-equals-default)
+
     HWY_INLINE void clear(D df) {
         for (std::size_t v = 0; v < kVectors; ++v) {
             red[v] = green[v] = blue[v] = hn::Zero(df);

@@ -106,10 +106,17 @@ class StripSums {
     // Calls body(first slot, values) for the eight values, in one vector of floats or two.
     template <typename Body>
     static HWY_INLINE void for_each_vector(hn::Vec<BytesTag> spread, const Body& body) {
-        const hn::CappedTag<float, kStripSlots> df;
-        const hn::Rebind<std::int32_t, decltype(df)> d32;
-        const hn::Rebind<std::int8_t, decltype(df)> d8;
-        if constexpr (hn::MaxLanes(df) == kStripSlots) {
+        for_each_vector_of(hn::CappedTag<float, kStripSlots>(), spread, body);
+    }
+
+    // A template by its vectors, for only what such vectors can do has to compile.
+    template <typename Floats, typename Body>
+    static HWY_INLINE void for_each_vector_of(Floats df,
+                                              hn::Vec<BytesTag> spread,
+                                              const Body& body) {
+        const hn::Rebind<std::int32_t, Floats> d32;
+        const hn::Rebind<std::int8_t, Floats> d8;
+        if constexpr (hn::MaxLanes(Floats()) == kStripSlots) {
             const auto values = hn::BitCast(hn::CappedTag<std::int8_t, kStripSlots>(), spread);
             body(0, hn::ConvertTo(df, hn::PromoteTo(d32, values)));
         } else {

@@ -79,6 +79,7 @@ class Entrant {
             .bands_reset = step.bands_reset,
             .covered = 0,
             .bytes = step.bytes,
+            .band_bytes = step.band_bytes,
             .microseconds = std::chrono::duration<double, std::micro>(end - start).count(),
             .bands = {}};
         record_bands(step.bands_reset, record);

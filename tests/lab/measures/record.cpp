@@ -25,6 +25,8 @@ const std::vector<RecordColumn>& record_columns() {
          [](const Record& r) { return static_cast<double>(r.covered); }},
         {"bytes", "B", "transport read", true,
          [](const Record& r) { return static_cast<double>(r.bytes); }},
+        {"band_bytes", "B", "memory held so that bands can begin anew", true,
+         [](const Record& r) { return static_cast<double>(r.band_bytes); }},
         {"microseconds", "us", "wall clock of the step", false,
          [](const Record& r) { return r.microseconds; }},
     };

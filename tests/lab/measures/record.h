@@ -29,6 +29,7 @@ struct Record {
     std::uint32_t bands_reset = 0;  // bit b
     std::uint32_t covered = 0;      // distinct columns added so far
     std::uint64_t bytes = 0;
+    std::uint64_t band_bytes = 0;
     double microseconds = 0;  // of the step, wall clock
     std::vector<BandRecord> bands;
 };

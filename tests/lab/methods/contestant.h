@@ -19,6 +19,7 @@ struct Step {
     std::uint32_t applied = 0;      // coefficients whose columns were added
     std::uint32_t bands_reset = 0;  // bit b: band b began anew
     std::uint64_t bytes = 0;        // of the transport read
+    std::uint64_t band_bytes = 0;   // of memory, so that bands can begin anew
     double stated_error = 0;        // relative L2 of the image, as the method states it
 };
 

@@ -41,6 +41,7 @@ class SelectorContestant final : public Contestant {
         return {.applied = static_cast<std::uint32_t>(plan_.changes.size()),
                 .bands_reset = plan_.bands_to_reset,
                 .bytes = plan_.bytes,
+                .band_bytes = images_.bytes_of_bands(),
                 .stated_error = error_.relative_l2()};
     }
     void write_image(std::span<float> rgb) const override {

@@ -28,6 +28,7 @@ Step SessionContestant::step() {
     return {.applied = report.applied,
             .bands_reset = report.bands_reset,
             .bytes = report.bytes_touched,
+            .band_bytes = report.band_bytes,
             .stated_error = report.stated_error};
 }
 

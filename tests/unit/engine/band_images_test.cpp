@@ -144,5 +144,18 @@ TEST(BandImages, HoldNothingWhenAllBandsAreCleared) {
     EXPECT_EQ(images.rounding_error_of_total(), 0);
 }
 
+// Few columns are known one by one; a whole product leaves an image for every band.
+TEST(BandImages, TakeMemoryForBandsOnlyOnceTheseHaveImages) {
+    BandImages images(scene());
+    EXPECT_EQ(images.bytes_of_bands(), 0);
+    const std::uint64_t image = images.total().size_bytes();
+    std::vector<float> shown(kColours * scene().coefficient_count());
+    const auto changes = changes_towards(test::random_lighting(8, 4), 40, shown);
+    images.update(0, changes);
+    EXPECT_EQ(images.bytes_of_bands(), changes.size() * sizeof(ColumnChange));
+    rebuild(images, shown);
+    EXPECT_EQ(images.bytes_of_bands(), scene().band_count() * image);
+}
+
 }  // namespace
 }  // namespace relume::engine
