@@ -13,8 +13,9 @@ target_include_directories(relume_build_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(relume_build_flags INTERFACE
     -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow
     $<$<BOOL:${RELUME_WARNINGS_AS_ERRORS}>:-Werror>
-    # GCC 12 is often wrong about these two at -O3 (Imath's vectors, temporaries).
-    -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow)
+    # GCC 12 is often wrong about these two at -O3 (Imath's vectors, temporaries); Clang has neither.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-error=stringop-overflow>)
 # GCC 12 takes "text" + std::string for overlapping copies [GCC bug 105651].
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(relume_build_flags INTERFACE -Wno-restrict)
