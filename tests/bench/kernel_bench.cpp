@@ -77,29 +77,31 @@ void run_strip_product(benchmark::State& state,
     state.counters["s/strip"] = seconds_per(stream.strips() * kind.targets);
 }
 
+// `run` as TARGET/WORKING SET/KIND.
+template <typename Kind>
+void register_kind(
+    void (*run)(benchmark::State&, const Kind&, std::size_t, std::optional<std::int64_t>),
+    const std::string& target_name,
+    std::optional<std::int64_t> target,
+    const Working& working,
+    const Kind& kind) {
+    const std::string name = fmt::format("{}/{}/{}", target_name, working.name, kind.name);
+    const std::size_t bytes = working.bytes;
+    benchmark::RegisterBenchmark(name.c_str(), [=, &kind](benchmark::State& state) {
+        run(state, kind, bytes, target);
+    })->Unit(benchmark::kMicrosecond);
+}
+
 void register_kernels(const std::string& target_name, std::optional<std::int64_t> target) {
     for (const Working& working : kWorkingSets) {
         for (const CellKind& kind : cell_kinds()) {
             // Tags alone cannot fill the memory: 32 bytes a column.
-            if (kind.nonzeros == 0 && working.bytes != kWorkingSets[0].bytes) {
-                continue;
+            if (kind.nonzeros != 0 || working.bytes == kWorkingSets[0].bytes) {
+                register_kind(run_kernel, target_name, target, working, kind);
             }
-            const std::string name =
-                fmt::format("{}/{}/{}", target_name, working.name, kind.name);
-            const std::size_t bytes = working.bytes;
-            benchmark::RegisterBenchmark(name.c_str(), [&kind, bytes,
-                                                        target](benchmark::State& state) {
-                run_kernel(state, kind, bytes, target);
-            })->Unit(benchmark::kMicrosecond);
         }
         for (const StripKind& kind : strip_kinds()) {
-            const std::string name =
-                fmt::format("{}/{}/{}", target_name, working.name, kind.name);
-            const std::size_t bytes = working.bytes;
-            benchmark::RegisterBenchmark(name.c_str(), [&kind, bytes,
-                                                        target](benchmark::State& state) {
-                run_strip_product(state, kind, bytes, target);
-            })->Unit(benchmark::kMicrosecond);
+            register_kind(run_strip_product, target_name, target, working, kind);
         }
     }
 }
