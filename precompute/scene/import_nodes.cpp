@@ -18,44 +18,50 @@ namespace relume::scene {
 namespace {
 
 // Imath multiplies row vectors, assimp column vectors: hence the transpose.
-Imath::M44f matrix_of(const aiMatrix4x4& m) {
+Imath::M44d matrix_of(const aiMatrix4x4& m) {
     return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
             m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
 }
 
-Imath::V3f vector_of(const aiVector3D& v) {
+Imath::V3d vector_of(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
 
-Imath::V3f transformed_direction(const Imath::M44f& m, const Imath::V3f& direction) {
-    Imath::V3f out;
+Imath::V3d transformed_direction(const Imath::M44d& m, const Imath::V3d& direction) {
+    Imath::V3d out;
     m.multDirMatrix(direction, out);
     return out;
 }
 
 // Normals go with the cofactors of the matrix: right for any scale and mirror, no inverse.
-Imath::M33f cofactors_of(const Imath::M44f& m) {
-    const Imath::V3f x(m[0][0], m[0][1], m[0][2]);
-    const Imath::V3f y(m[1][0], m[1][1], m[1][2]);
-    const Imath::V3f z(m[2][0], m[2][1], m[2][2]);
-    const Imath::V3f yz = y.cross(z);
-    const Imath::V3f zx = z.cross(x);
-    const Imath::V3f xy = x.cross(y);
+Imath::M33d cofactors_of(const Imath::M44d& m) {
+    const Imath::V3d x(m[0][0], m[0][1], m[0][2]);
+    const Imath::V3d y(m[1][0], m[1][1], m[1][2]);
+    const Imath::V3d z(m[2][0], m[2][1], m[2][2]);
+    const Imath::V3d yz = y.cross(z);
+    const Imath::V3d zx = z.cross(x);
+    const Imath::V3d xy = x.cross(y);
     return {yz.x, yz.y, yz.z, zx.x, zx.y, zx.z, xy.x, xy.y, xy.z};
 }
 
-Mesh mesh_in_world(const aiMesh& from, const Imath::M44f& to_world, const std::string& name) {
+std::vector<Imath::V3d> positions_in_world(const aiMesh& from, const Imath::M44d& to_world) {
+    std::vector<Imath::V3d> positions;
+    positions.reserve(from.mNumVertices);
+    for (unsigned i = 0; i < from.mNumVertices; ++i)
+        positions.push_back(vector_of(from.mVertices[i]) * to_world);
+    return positions;
+}
+
+// All but the positions.
+Mesh mesh_in_world(const aiMesh& from, const Imath::M44d& to_world, const std::string& name) {
     Mesh mesh;
     mesh.name = name;
     mesh.material = from.mMaterialIndex;
-    mesh.positions.reserve(from.mNumVertices);
-    for (unsigned i = 0; i < from.mNumVertices; ++i)
-        mesh.positions.push_back(vector_of(from.mVertices[i]) * to_world);
     if (from.HasNormals()) {
-        const Imath::M33f cofactors = cofactors_of(to_world);
+        const Imath::M33d cofactors = cofactors_of(to_world);
         mesh.normals.reserve(from.mNumVertices);
         for (unsigned i = 0; i < from.mNumVertices; ++i)
-            mesh.normals.push_back((vector_of(from.mNormals[i]) * cofactors).normalized());
+            mesh.normals.emplace_back((vector_of(from.mNormals[i]) * cofactors).normalized());
     }
     if (from.HasTextureCoords(0)) {
         mesh.uvs.reserve(from.mNumVertices);
@@ -83,31 +89,27 @@ std::string mesh_name(const aiNode& node, const aiMesh& mesh) {
                                  : std::string(node.mName.C_Str());
 }
 
-Imath::M44f world_matrix_of(const aiNode* node) {
-    Imath::M44f matrix;
+Imath::M44d world_matrix_of(const aiNode* node) {
+    Imath::M44d matrix;
     for (; node != nullptr; node = node->mParent)
         matrix = matrix * matrix_of(node->mTransformation);
     return matrix;
 }
 
 // assimp 5.2 hands on glTF's vertical angle times the aspect, if the file names one.
-float vertical_fov_degrees(const aiCamera& camera) {
-    const float aspect = camera.mAspect > 0 ? camera.mAspect : 1.0F;
-    return camera.mHorizontalFOV / aspect * 180.0F / std::numbers::pi_v<float>;
+double vertical_fov_degrees(const aiCamera& camera) {
+    const double aspect = camera.mAspect > 0 ? camera.mAspect : 1.0F;
+    return camera.mHorizontalFOV / aspect * 180.0 / std::numbers::pi;
 }
 
-CameraPlacement placement_of(const aiScene& source, const aiCamera& camera) {
-    const Imath::M44f to_world = world_matrix_of(source.mRootNode->FindNode(camera.mName));
-    CameraPlacement placement;
-    placement.name = camera.mName.C_Str();
+NamedCamera camera_in_world(const aiScene& source, const aiCamera& camera) {
+    const Imath::M44d to_world = world_matrix_of(source.mRootNode->FindNode(camera.mName));
     // At its node's origin: mPosition repeats the node's own translation.
-    placement.eye = Imath::V3f(0) * to_world;
-    // A node's scale must not turn the view into a point or an overflow.
-    placement.look_at =
-        placement.eye + transformed_direction(to_world, vector_of(camera.mLookAt)).normalized();
-    placement.up = transformed_direction(to_world, vector_of(camera.mUp)).normalized();
-    placement.vertical_fov_degrees = vertical_fov_degrees(camera);
-    return placement;
+    return {.name = camera.mName.C_Str(),
+            .eye = Imath::V3d(0) * to_world,
+            .forward = transformed_direction(to_world, vector_of(camera.mLookAt)).normalized(),
+            .up = transformed_direction(to_world, vector_of(camera.mUp)).normalized(),
+            .vertical_fov_degrees = vertical_fov_degrees(camera)};
 }
 
 }  // namespace
@@ -115,8 +117,9 @@ CameraPlacement placement_of(const aiScene& source, const aiCamera& camera) {
 void import_meshes(const aiScene& source,
                    std::uint64_t max_triangles,
                    std::uint32_t max_nodes,
-                   Scene& scene) {
-    std::vector<std::pair<const aiNode*, Imath::M44f>> open{{source.mRootNode, Imath::M44f()}};
+                   ImportedScene& imported) {
+    Scene& scene = imported.scene;
+    std::vector<std::pair<const aiNode*, Imath::M44d>> open{{source.mRootNode, Imath::M44d()}};
     std::uint64_t triangles = 0;
     std::uint64_t nodes = 0;
     while (!open.empty()) {
@@ -126,7 +129,7 @@ void import_meshes(const aiScene& source,
             throw SceneError(
                 SceneFault::too_large,
                 fmt::format("scene '{}' has more than {} nodes", scene.name, max_nodes));
-        const Imath::M44f to_world = matrix_of(node->mTransformation) * parent;
+        const Imath::M44d to_world = matrix_of(node->mTransformation) * parent;
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             const aiMesh& mesh = *source.mMeshes[node->mMeshes[i]];
             triangles += mesh.mNumFaces;
@@ -135,27 +138,24 @@ void import_meshes(const aiScene& source,
                                  fmt::format("scene '{}' has more than {} triangles",
                                              scene.name, max_triangles));
             scene.meshes.push_back(mesh_in_world(mesh, to_world, mesh_name(*node, mesh)));
+            imported.positions.push_back(positions_in_world(mesh, to_world));
         }
         for (unsigned i = node->mNumChildren; i > 0; --i)  // children in the file's order
             open.emplace_back(node->mChildren[i - 1], to_world);
     }
 }
 
-std::optional<CameraPlacement> import_camera(const aiScene& source, ImportReport& report) {
-    std::optional<CameraPlacement> found;
+void import_cameras(const aiScene& source, ImportedScene& imported) {
     for (unsigned i = 0; i < source.mNumCameras; ++i) {
         const aiCamera& camera = *source.mCameras[i];
         if (camera.mOrthographicWidth > 0) {
-            report.unused.push_back(
+            imported.scene.report.unused.push_back(
                 fmt::format("camera '{}': orthographic", camera.mName.C_Str()));
-        } else if (found) {
-            report.unused.push_back(fmt::format("camera '{}': the first, '{}', is used",
-                                                camera.mName.C_Str(), found->name));
-        } else {
-            found = placement_of(source, camera);
+            continue;
         }
+        imported.cameras.push_back(camera_in_world(source, camera));
+        imported.cameras.back().index = static_cast<std::uint32_t>(imported.cameras.size() - 1);
     }
-    return found;
 }
 
 }  // namespace relume::scene

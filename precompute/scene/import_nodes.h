@@ -1,10 +1,9 @@
-// The node tree of an assimp scene: instances flattened into world space, the camera found.
+// The node tree of an assimp scene: instances flattened into world space, cameras found.
 #pragma once
 
-#include "precompute/scene/scene.h"
+#include "precompute/scene/imported_scene.h"
 
 #include <cstdint>
-#include <optional>
 
 struct aiScene;
 
@@ -14,10 +13,9 @@ namespace relume::scene {
 void import_meshes(const aiScene& source,
                    std::uint64_t max_triangles,
                    std::uint32_t max_nodes,
-                   Scene& scene);
+                   ImportedScene& imported);
 
-// The first perspective camera; the others are named in the report.
-[[nodiscard]] std::optional<CameraPlacement> import_camera(const aiScene& source,
-                                                           ImportReport& report);
+// Every perspective camera; the others are named in the report.
+void import_cameras(const aiScene& source, ImportedScene& imported);
 
 }  // namespace relume::scene
