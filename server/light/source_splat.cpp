@@ -77,9 +77,10 @@ class Splatter {
         }
         const float height = static_cast<float>(level_.height);
         const float pi = std::numbers::pi_v<float>;
-        // The widest of the row's two edges, which is the one nearer to the equator.
-        const float nearest = std::min(std::abs(static_cast<float>(y) / height - 0.5F),
-                                       std::abs(static_cast<float>(y + 1) / height - 0.5F));
+        // Where the row is widest: on the equator if it crosses it, else at the nearer edge.
+        const float from_above = 0.5F - static_cast<float>(y + 1) / height;
+        const float from_below = static_cast<float>(y) / height - 0.5F;
+        const float nearest = std::max({0.0F, from_above, from_below});
         return parts(2 * pi * std::cos(pi * nearest) / static_cast<float>(level_.width));
     }
 
