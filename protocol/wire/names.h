@@ -14,4 +14,13 @@ inline constexpr std::string_view kNameRule =
 
 [[nodiscard]] bool is_name(std::string_view text);
 
+// What people call a light: 1 to 64 code points, none of them a control character (U+0000 to
+// U+001F, U+007F to U+009F). Only shown, so it may be of any script.
+inline constexpr std::size_t kMaxLabelLength = 64;
+inline constexpr std::string_view kLabelRule =
+    "1 to 64 characters, none of them a control character";
+
+// `text` is valid UTF-8, as parse_json sees to.
+[[nodiscard]] bool is_label(std::string_view text);
+
 }  // namespace relume::wire

@@ -32,6 +32,20 @@ std::string text_from_range(Range range) {
     throw WireError(ErrorCode::wrong_type, path, quote(value), std::move(expected));
 }
 
+std::string ruled_string_from_json(const json& value,
+                                   const std::string& path,
+                                   bool (*is_allowed)(std::string_view),
+                                   std::string expected) {
+    if (!value.is_string()) {
+        refuse_type(value, path, std::move(expected));
+    }
+    auto text = value.get<std::string>();
+    if (!is_allowed(text)) {
+        throw WireError(ErrorCode::out_of_range, path, quote(value), std::move(expected));
+    }
+    return text;
+}
+
 }  // namespace
 
 double number_from_json(const json& value, const std::string& path, Range range) {
@@ -87,6 +101,13 @@ Imath::V3d vector_from_json(const json& value, const std::string& path, Range ra
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+bool flag_from_json(const json& value, const std::string& path) {
+    if (!value.is_boolean()) {
+        refuse_type(value, path, "true or false");
+    }
+    return value.get<bool>();
+}
+
 std::string string_from_json(const json& value, const std::string& path) {
     if (!value.is_string()) {
         refuse_type(value, path, "a string");
@@ -95,15 +116,11 @@ std::string string_from_json(const json& value, const std::string& path) {
 }
 
 std::string name_from_json(const json& value, const std::string& path) {
-    const std::string expected = "a name: " + std::string(kNameRule);
-    if (!value.is_string()) {
-        refuse_type(value, path, expected);
-    }
-    auto name = value.get<std::string>();
-    if (!is_name(name)) {
-        throw WireError(ErrorCode::out_of_range, path, quote(value), expected);
-    }
-    return name;
+    return ruled_string_from_json(value, path, is_name, "a name: " + std::string(kNameRule));
+}
+
+std::string label_from_json(const json& value, const std::string& path) {
+    return ruled_string_from_json(value, path, is_label, "a label: " + std::string(kLabelRule));
 }
 
 ObjectReader::ObjectReader(const json& value, std::string path)

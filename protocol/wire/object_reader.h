@@ -32,10 +32,12 @@ struct Range {
 [[nodiscard]] Imath::V3d vector_from_json(const nlohmann::json& value,
                                           const std::string& path,
                                           Range range);
+[[nodiscard]] bool flag_from_json(const nlohmann::json& value, const std::string& path);
 [[nodiscard]] std::string string_from_json(const nlohmann::json& value,
                                            const std::string& path);
-// A string that names.h allows.
+// Strings that names.h allows as names and as labels.
 [[nodiscard]] std::string name_from_json(const nlohmann::json& value, const std::string& path);
+[[nodiscard]] std::string label_from_json(const nlohmann::json& value, const std::string& path);
 
 // One JSON object whose keys are asked for one by one. Keeps references to what it is given.
 class ObjectReader {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,12 +49,28 @@ Imath::Quatd quaternion_from_yaw_pitch_roll_degrees(double yaw_degrees,
         .normalized();
 }
 
+bool any_solo(const SessionState& state) {
+    return std::any_of(state.lights.begin(), state.lights.end(),
+                       [](const auto& entry) { return entry.second.solo; });
+}
+
+bool lights_now(const AreaLight& light, bool any_solo) {
+    return !light.muted && (light.solo || !any_solo);
+}
+
 json to_json(const AreaLight& light) {
-    return {{"direction", array_from_vector(light.direction)},
-            {"angular_radius_degrees", light.angular_radius_degrees},
-            {"radiance", array_from_vector(light.radiance)},
-            {"gain", light.gain},
-            {"tint", array_from_vector(light.tint)}};
+    json object = {{"direction", array_from_vector(light.direction)},
+                   {"angular_radius_degrees", light.angular_radius_degrees},
+                   {"radiance", array_from_vector(light.radiance)},
+                   {"gain", light.gain},
+                   {"tint", array_from_vector(light.tint)},
+                   {"muted", light.muted},
+                   {"solo", light.solo},
+                   {"order", light.order}};
+    if (light.name) {
+        object["name"] = *light.name;
+    }
+    return object;
 }
 
 json to_json(const SessionState& state) {

@@ -43,13 +43,19 @@ struct Blend {
     friend bool operator==(const Blend&, const Blend&) = default;
 };
 
-// A round light at infinity; its radiance is radiance · gain · tint over the whole disc.
+// A round light at infinity; its radiance is radiance · gain · tint over the whole disc where
+// it lights (see `lights_now`), else zero.
 struct AreaLight {
     Imath::V3d direction{0, 1, 0};  // unit, towards the light, in the world
     double angular_radius_degrees = 1;
     Imath::V3d radiance{0, 0, 0};
     double gain = 1;
     Imath::V3d tint{1, 1, 1};
+    std::optional<std::string> name =
+        std::nullopt;  // what people call it; a label as names.h allows
+    bool muted = false;
+    bool solo = false;
+    double order = 0;  // lists show lights in ascending order, equals by id
 
     friend bool operator==(const AreaLight&, const AreaLight&) = default;
 };
@@ -97,13 +103,19 @@ struct SessionState {
     friend bool operator==(const SessionState&, const SessionState&) = default;
 };
 
+// While any light is solo, muted or not, only solo lights light; environment and blend are
+// dark.
+[[nodiscard]] bool any_solo(const SessionState& state);
+// A light that is muted never lights.
+[[nodiscard]] bool lights_now(const AreaLight& light, bool any_solo);
+
 // R = R_y(yaw) · R_x(pitch) · R_z(roll), as a unit quaternion.
 [[nodiscard]] Imath::Quatd quaternion_from_yaw_pitch_roll_degrees(double yaw_degrees,
                                                                   double pitch_degrees,
                                                                   double roll_degrees);
 
-// The object of protocol/README.md §3.1. What is not set (blend.name, one of the budgets) is
-// left out, so that the object is what merging all patches so far gives.
+// The object of protocol/README.md §3.1. What is not set (names of blend and lights, one of the
+// budgets) is left out, so that the object is what merging all patches so far gives.
 [[nodiscard]] nlohmann::json to_json(const SessionState& state);
 [[nodiscard]] nlohmann::json to_json(const AreaLight& light);
 // Throws WireError as apply_patch does.

@@ -107,8 +107,15 @@ void Relighter::set_rig(const wire::SessionState& state,
     rig_.rotation = Imath::Quatf(state.rotation);
     rig_.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
     rig_.lights.clear();
+    const bool solo = wire::any_solo(state);
+    if (solo) {
+        rig_.environment = nullptr;
+        rig_.blend = nullptr;
+    }
     for (const auto& [id, light] : state.lights) {
-        rig_.lights.push_back(area_light_from(light));
+        if (wire::lights_now(light, solo)) {
+            rig_.lights.push_back(area_light_from(light));
+        }
     }
     light::evaluate(rig_, n, cubemap_);
     light::lighting_coefficients(cubemap_, scene_->engine->projection(), coefficients_);

@@ -53,6 +53,17 @@ json light_patch(bool is_new) {
     if (chance()) {
         light["tint"] = triple(1e4);
     }
+    if (chance()) {
+        light["name"] = *rc::gen::element<json>("Fenster, links", "キー", nullptr);
+    }
+    for (const char* flag : {"muted", "solo"}) {
+        if (chance()) {
+            light[flag] = chance();
+        }
+    }
+    if (chance()) {
+        light["order"] = number(-10, 10);
+    }
     return light;
 }
 
