@@ -34,8 +34,9 @@ class Hasher {
         add(v.z);
     }
     // 0 for nothing, so that no index may be taken for it.
-    void add(const std::optional<scene::TextureIndex>& index) {
-        add(index ? std::uint64_t{*index} + 1 : std::uint64_t{0});
+    void add(const std::optional<scene::TextureUse>& use) {
+        add(use ? std::uint64_t{use->texture} + 1 : std::uint64_t{0});
+        add(use ? std::uint64_t{use->uv_set} : std::uint64_t{0});
     }
 
     [[nodiscard]] std::uint64_t digest() const { return XXH3_64bits_digest(state_.get()); }
@@ -50,8 +51,13 @@ class Hasher {
 void add(Hasher& hasher, const scene::Mesh& mesh) {
     hasher.add(mesh.positions);
     hasher.add(mesh.normals);
+    hasher.add(mesh.tangents);
     hasher.add(mesh.uvs);
+    for (const std::vector<Imath::V2f>& set : mesh.more_uvs) {
+        hasher.add(set);
+    }
     hasher.add(mesh.colours);
+    hasher.add(mesh.opacities);
     hasher.add(mesh.triangles);
     hasher.add(std::uint64_t{mesh.material});
 }
@@ -60,14 +66,18 @@ void add(Hasher& hasher, const scene::Material& material) {
     hasher.add(static_cast<std::uint64_t>(material.model));
     hasher.add(material.base_colour);
     hasher.add(material.specular);
-    for (const float value : {material.exponent, material.metallic, material.roughness,
-                              material.normal_scale, material.opacity}) {
+    hasher.add(material.dielectric_f0);
+    for (const float value :
+         {material.exponent, material.metallic, material.roughness, material.dielectric_f90,
+          material.normal_scale, material.opacity}) {
         hasher.add(value);
     }
     hasher.add(material.alpha_cutoff.value_or(-1));
-    hasher.add(material.base_texture);
-    hasher.add(material.surface_texture);
-    hasher.add(material.normal_texture);
+    for (const auto& use : {material.base_texture, material.surface_texture,
+                            material.gloss_texture, material.dielectric_texture,
+                            material.dielectric_colour_texture, material.normal_texture}) {
+        hasher.add(use);
+    }
 }
 
 void add(Hasher& hasher, const scene::Texture& texture) {

@@ -1,7 +1,5 @@
 #include "precompute/scene/bsdf.h"
 
-#include "precompute/scene/bsdf_lobes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -91,14 +89,23 @@ Bsdf Bsdf::phong(const Imath::V3f& diffuse, const Imath::V3f& specular, float ex
     return bsdf;
 }
 
-Bsdf Bsdf::ggx(const Imath::V3f& base, float metallic, float roughness) {
+Bsdf Bsdf::ggx(const Imath::V3f& base,
+               float metallic,
+               float roughness,
+               const Dielectric& dielectric) {
     Bsdf bsdf;
     bsdf.model_ = BsdfModel::ggx;
     const Imath::V3f colour = clamped(base);
     const float metal = std::clamp(metallic, 0.0F, 1.0F);
     const float rough = std::clamp(roughness, kMinRoughness, 1.0F);
     bsdf.diffuse_ = colour * (1.0F - metal);
-    bsdf.specular_ = Imath::V3f(lobes::kDielectricF0) * (1.0F - metal) + colour * metal;
+    const float f90 = std::clamp(dielectric.f90, 0.0F, 1.0F);
+    Imath::V3f f0 = clamped(dielectric.f0);
+    for (int c = 0; c < 3; ++c)
+        f0[c] = std::min(f0[c], f90);
+    bsdf.specular_ = f0 * (1.0F - metal) + colour * metal;
+    bsdf.grazing_ = f90 * (1.0F - metal) + metal;
+    bsdf.coat_ = {.f0 = largest(f0), .f90 = f90};
     bsdf.alpha_ = rough * rough;
     return bsdf;
 }
@@ -120,8 +127,8 @@ float Bsdf::diffuse_chance(const Imath::V3f& wo) const {
     float diffuse = largest(diffuse_);
     float specular = largest(specular_);
     if (model_ == BsdfModel::ggx) {
-        diffuse *= lobes::coat_transmission(wo.z);
-        specular += (1.0F - specular) * lobes::schlick_weight(wo.z);
+        diffuse *= coat_.transmission(wo.z);
+        specular += (grazing_ - specular) * lobes::schlick_weight(wo.z);
     }
     const float sum = diffuse + specular;
     return sum > 0 ? diffuse / sum : 1.0F;

@@ -10,11 +10,15 @@
 // - Lambert: colour/π.
 // - Phong: kd/π + ks (e+2)/(2π) max(0, cos α)^e, α between wi and the mirrored wo
 //   [Lafortune94]; kd and ks scaled down together where a channel of their sum exceeds 1.
-// - GGX: F0 = lerp(0.04, base, metallic), α = roughness²; Schlick F, Smith's height-correlated
-//   G [Heitz14], plus the coupled diffuse layer
-//   (1−metallic)·base·(1−F(cos θi))(1−F(cos θo)) / (π (1−F̄)) with F of a dielectric of
-//   F0 = 0.04 [Shirley97]; glTF's own layer, 1−F(h), makes energy at grazing angles.
+// - GGX: F0 = lerp(f0, base, metallic), F90 = lerp(f90, 1, metallic) with f0 and f90 of the
+//   dielectric (0.04 and 1 where nothing says otherwise), α = roughness²; Schlick F, Smith's
+//   height-correlated G [Heitz14], plus the coupled diffuse layer
+//   (1−metallic)·base·(1−F(cos θi))(1−F(cos θo)) / (π (1−F̄)) with F of a dielectric of the
+//   largest channel of f0 [Shirley97]; glTF's own layer, 1−F(h), makes energy at grazing
+//   angles.
 #pragma once
+
+#include "precompute/scene/bsdf_lobes.h"
 
 #include <Imath/ImathVec.h>
 
@@ -30,6 +34,12 @@ struct BsdfSample {
     Imath::V3f wi{0, 0, 0};      // shading frame
     Imath::V3f weight{0, 0, 0};  // f cos θi / pdf; zero: the path ends here
     float pdf = 0;               // per steradian, over all lobes
+};
+
+// What a dielectric reflects straight on and at grazing angles.
+struct Dielectric {
+    Imath::V3f f0{0.04F, 0.04F, 0.04F};
+    float f90 = 1;
 };
 
 // Planes of equal length.
@@ -49,8 +59,11 @@ class Bsdf {
                                     const Imath::V3f& specular,
                                     float exponent);
     // `roughness` is glTF's perceptual one, clamped to [kMinRoughness, 1]; `metallic` to [0,
-    // 1].
-    [[nodiscard]] static Bsdf ggx(const Imath::V3f& base, float metallic, float roughness);
+    // 1]; the dielectric's f90 to [0, 1] and its f0 to [0, f90].
+    [[nodiscard]] static Bsdf ggx(const Imath::V3f& base,
+                                  float metallic,
+                                  float roughness,
+                                  const Dielectric& dielectric = {});
     // Below this a highlight is narrower than anything a cubemap texel resolves.
     static constexpr float kMinRoughness = 0.05F;
 
@@ -65,6 +78,10 @@ class Bsdf {
     [[nodiscard]] float exponent() const { return exponent_; }
     // GGX only: α = roughness².
     [[nodiscard]] float alpha() const { return alpha_; }
+    // GGX only: F90.
+    [[nodiscard]] float grazing() const { return grazing_; }
+    // GGX only: the dielectric over the diffuse layer.
+    [[nodiscard]] const lobes::Coat& coat() const { return coat_; }
 
     [[nodiscard]] Imath::V3f evaluate(const Imath::V3f& wi, const Imath::V3f& wo) const;
     // out = f(wi, wo)·cos θi for many wi at once; out is zero where wi.z ≤ 0.
@@ -88,6 +105,8 @@ class Bsdf {
     Imath::V3f specular_{0, 0, 0};
     float exponent_ = 0;
     float alpha_ = 1;
+    float grazing_ = 1;  // GGX: F90
+    lobes::Coat coat_;   // GGX: over the diffuse layer
 };
 
 }  // namespace relume::scene

@@ -1,7 +1,6 @@
 // Bsdf::evaluate_times_cosine: plain loops over planes, compiled so that they vectorise (see
 // CMakeLists.txt). Chunks keep the temporaries in L1.
 #include "precompute/scene/bsdf.h"
-#include "precompute/scene/bsdf_lobes.h"
 
 #include <algorithm>
 #include <array>
@@ -52,12 +51,13 @@ void phong_shares(float exponent,
 }
 
 void ggx_shares(float alpha,
+                const lobes::Coat& coat,
                 const Imath::V3f& wo,
                 const ChunkOfDirections& wi,
                 Shares& shares) {
     const float alpha2 = alpha * alpha;
     const float root_o = lobes::smith_root(alpha2, wo.z);
-    const float layer = lobes::kCoatedDiffuse * lobes::coat_transmission(wo.z);
+    const float layer = coat.diffuse_share() * coat.transmission(wo.z);
     for (std::size_t i = 0; i < wi.count; ++i) {
         const float cos_i = std::max(wi.z[i], 0.0F);
         const float x = wi.x[i] + wo.x;
@@ -72,7 +72,7 @@ void ggx_shares(float alpha,
         const float v = lobes::smith_visibility(cos_i, root_i, wo.z, root_o);
         const float lobe = d * v * cos_i;
         const float fresnel = lobes::schlick_weight(std::min(cos_h, 1.0F));
-        shares.diffuse[i] = layer * lobes::coat_transmission(cos_i) * cos_i;
+        shares.diffuse[i] = layer * coat.transmission(cos_i) * cos_i;
         shares.specular[i] = lobe * (1.0F - fresnel);
         shares.white[i] = lobe * fresnel;
     }
@@ -102,7 +102,7 @@ void Bsdf::evaluate_times_cosine(const Imath::V3f& wo,
                 phong_shares(exponent_, wo, chunk, shares);
                 break;
             case BsdfModel::ggx:
-                ggx_shares(alpha_, wo, chunk, shares);
+                ggx_shares(alpha_, coat_, wo, chunk, shares);
                 break;
         }
         for (int c = 0; c < 3; ++c) {
@@ -118,7 +118,7 @@ void Bsdf::evaluate_times_cosine(const Imath::V3f& wo,
             } else {
                 for (std::size_t i = 0; i < chunk.count; ++i)
                     plane[i] = diffuse * shares.diffuse[i] + specular * shares.specular[i] +
-                               shares.white[i];
+                               grazing_ * shares.white[i];
             }
         }
     }

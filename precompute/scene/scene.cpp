@@ -1,6 +1,7 @@
 #include "precompute/scene/scene.h"
 
 #include "precompute/scene/error.h"
+#include "precompute/scene/tangents.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +64,12 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
                    fmt::format("{} {} for {} vertices", size, what, count));
     };
     check_length(mesh.normals.size(), "normals");
+    check_length(mesh.tangents.size(), "tangents");
     check_length(mesh.uvs.size(), "texture coordinates");
+    for (const std::vector<Imath::V2f>& set : mesh.more_uvs)
+        check_length(set.size(), "further texture coordinates");
     check_length(mesh.colours.size(), "colours");
+    check_length(mesh.opacities.size(), "opacities");
     if (mesh.material >= scene.materials.size())
         refuse(SceneFault::index_out_of_range,
                fmt::format("material {}; expected below {}", mesh.material,
@@ -114,6 +119,22 @@ std::size_t repair_non_finite(std::vector<Value>& values, const Value& replaceme
     return repaired;
 }
 
+bool are_usable(const std::vector<Imath::V4f>& tangents) {
+    return std::all_of(tangents.begin(), tangents.end(), [](const Imath::V4f& t) {
+        return std::abs(t.x * t.x + t.y * t.y + t.z * t.z - 1.0F) < 1e-3F &&
+               std::abs(t.w) == 1.0F;
+    });
+}
+
+// Tangents of the file are kept where they are directions, made where a normal map needs them.
+void finish_tangents(const Material& material, Mesh& mesh) {
+    if (!material.normal_texture) {
+        mesh.tangents.clear();
+    } else if (mesh.tangents.empty() || mesh.normals.empty() || !are_usable(mesh.tangents)) {
+        add_tangents(mesh, material.normal_texture->uv_set);
+    }
+}
+
 }  // namespace
 
 std::size_t Scene::triangle_count() const {
@@ -152,7 +173,10 @@ void finish_scene(Scene& scene) {
         });
         normals += repair_normals(mesh);
         attributes += repair_non_finite(mesh.uvs, Imath::V2f(0, 0));
+        for (std::vector<Imath::V2f>& set : mesh.more_uvs)
+            attributes += repair_non_finite(set, Imath::V2f(0, 0));
         attributes += repair_non_finite(mesh.colours, Imath::V3f(1, 1, 1));
+        finish_tangents(scene.materials[mesh.material], mesh);
     }
     if (given == 0)
         throw SceneError(

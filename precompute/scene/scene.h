@@ -37,7 +37,8 @@ struct Scene {
 
 // Checks and repairs what every scene must satisfy, whatever it came from: indices in range,
 // vertices finite, degenerate triangles dropped (and counted in the report), empty meshes
-// removed, normals unit or regenerated. Throws SceneError.
+// removed, normals unit or regenerated, tangents there where a normal map needs them. Throws
+// SceneError.
 void finish_scene(Scene& scene);
 
 }  // namespace relume::scene

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace relume::scene {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr float kMinViewCosine = 1e-3F;
 
 template <typename Value>
-Value interpolated(const std::vector<Value>& values,
+Value interpolated(std::span<const Value> values,
                    const Triangle& triangle,
                    const Imath::V2f& barycentric) {
     const float first = 1.0F - barycentric.x - barycentric.y;
@@ -20,47 +21,43 @@ Value interpolated(const std::vector<Value>& values,
            values[triangle[2]] * barycentric.y;
 }
 
-Imath::V2f uv_at(const Mesh& mesh, const Triangle& triangle, const Imath::V2f& barycentric) {
-    return mesh.uvs.empty() ? Imath::V2f(0, 0) : interpolated(mesh.uvs, triangle, barycentric);
+template <typename Value>
+Value interpolated(const std::vector<Value>& values,
+                   const Triangle& triangle,
+                   const Imath::V2f& barycentric) {
+    return interpolated(std::span<const Value>(values), triangle, barycentric);
 }
 
-// Tangents of the surface along u and v, made orthogonal to `normal`. False where the texture
-// coordinates do not span the triangle.
-bool tangents_from_uvs(const Mesh& mesh,
-                       const Triangle& triangle,
-                       const Imath::V3f& normal,
-                       Frame& frame) {
-    const Imath::V2f duv1 = mesh.uvs[triangle[1]] - mesh.uvs[triangle[0]];
-    const Imath::V2f duv2 = mesh.uvs[triangle[2]] - mesh.uvs[triangle[0]];
-    const float determinant = duv1.x * duv2.y - duv1.y * duv2.x;
-    if (determinant == 0 || !std::isfinite(determinant))
-        return false;
-    const Imath::V3f e1 = mesh.positions[triangle[1]] - mesh.positions[triangle[0]];
-    const Imath::V3f e2 = mesh.positions[triangle[2]] - mesh.positions[triangle[0]];
-    const Imath::V3f along_u = (e1 * duv2.y - e2 * duv1.y) * (determinant > 0 ? 1.0F : -1.0F);
-    const Imath::V3f along_v = (e2 * duv1.x - e1 * duv2.x) * (determinant > 0 ? 1.0F : -1.0F);
-    const Imath::V3f tangent = along_u - normal * normal.dot(along_u);
-    if (!(tangent.length() > 0))
-        return false;
-    frame.normal = normal;
-    frame.tangent = tangent.normalized();
-    frame.bitangent = normal.cross(frame.tangent);
-    if (frame.bitangent.dot(along_v) < 0)
-        frame.bitangent = -frame.bitangent;
-    return true;
+PointUvs uvs_at(const Mesh& mesh, const Triangle& triangle, const Imath::V2f& barycentric) {
+    PointUvs uvs;
+    for (std::size_t set = 0; set <= mesh.more_uvs.size(); ++set) {
+        if (const auto values = mesh.uv_set(set); !values.empty())
+            uvs.of_set[set] = interpolated(values, triangle, barycentric);
+    }
+    return uvs;
 }
 
+// `normal` tilted as the normal map says, in the frame of the mesh's tangents.
 Imath::V3f mapped_normal(const Scene& scene,
                          const Material& material,
                          const Mesh& mesh,
                          const Triangle& triangle,
-                         const Imath::V2f& uv,
+                         const Imath::V2f& barycentric,
+                         const PointUvs& uvs,
                          const Imath::V3f& normal) {
-    Frame frame;
-    if (!material.normal_texture || mesh.uvs.empty() ||
-        !tangents_from_uvs(mesh, triangle, normal, frame))
+    if (!material.normal_texture || mesh.tangents.empty())
         return normal;
-    const Imath::V4f texel = scene.textures[*material.normal_texture].evaluate(uv);
+    const Imath::V4f along_u = interpolated(mesh.tangents, triangle, barycentric);
+    const Imath::V3f flat(along_u.x, along_u.y, along_u.z);
+    const Imath::V3f tangent = flat - normal * normal.dot(flat);
+    const float length = tangent.length();
+    if (!(length > 1e-6F))
+        return normal;
+    Frame frame{.tangent = tangent / length, .bitangent = {}, .normal = normal};
+    const float side = mesh.tangents[triangle[0]].w;
+    frame.bitangent = normal.cross(frame.tangent) * side;
+    const TextureUse& use = *material.normal_texture;
+    const Imath::V4f texel = scene.textures[use.texture].evaluate(uvs.of_set[use.uv_set]);
     const Imath::V3f local{(2.0F * texel.x - 1.0F) * material.normal_scale,
                            (2.0F * texel.y - 1.0F) * material.normal_scale,
                            std::max(2.0F * texel.z - 1.0F, 1e-3F)};
@@ -133,7 +130,7 @@ SurfacePoint surface_point(const Scene& scene,
         (mesh.positions[triangle[1]] - p0).cross(mesh.positions[triangle[2]] - p0).normalized();
     point.geometric_normal = face_normal.dot(to_viewer) < 0 ? -face_normal : face_normal;
 
-    const Imath::V2f uv = uv_at(mesh, triangle, barycentric);
+    const PointUvs uvs = uvs_at(mesh, triangle, barycentric);
     Imath::V3f normal = face_normal;
     if (!mesh.normals.empty()) {
         const Imath::V3f smooth = interpolated(mesh.normals, triangle, barycentric);
@@ -141,14 +138,14 @@ SurfacePoint surface_point(const Scene& scene,
         if (length > 1e-3F)
             normal = smooth / length;
     }
-    normal = mapped_normal(scene, material, mesh, triangle, uv, normal);
+    normal = mapped_normal(scene, material, mesh, triangle, barycentric, uvs, normal);
     normal = viewer_sided(normal, point.geometric_normal, to_viewer);
     point.shading = Frame::from_normal(normal);
     point.wo = point.shading.to_local(to_viewer);
     const Imath::V3f colour = mesh.colours.empty()
                                   ? Imath::V3f(1, 1, 1)
                                   : interpolated(mesh.colours, triangle, barycentric);
-    point.bsdf = material.bsdf_at(scene.textures, uv, colour);
+    point.bsdf = material.bsdf_at(scene.textures, uvs, colour);
     return point;
 }
 
@@ -158,9 +155,12 @@ bool is_solid_at(const Scene& scene,
                  const Imath::V2f& barycentric) {
     const Mesh& mesh = scene.meshes[mesh_index];
     const Material& material = scene.materials[mesh.material];
-    return !material.has_holes() ||
-           material.is_solid_at(scene.textures,
-                                uv_at(mesh, mesh.triangles[triangle_index], barycentric));
+    if (!material.has_holes())
+        return true;
+    const Triangle& triangle = mesh.triangles[triangle_index];
+    const float opacity =
+        mesh.opacities.empty() ? 1.0F : interpolated(mesh.opacities, triangle, barycentric);
+    return material.is_solid_at(scene.textures, uvs_at(mesh, triangle, barycentric), opacity);
 }
 
 bool has_holes(const Scene& scene) {

@@ -57,7 +57,7 @@ Reflection reflection_of(const scene::Scene& scene,
                          const V3d& vertex_colour) {
     V3d base = V3d(material.base_colour) * vertex_colour;
     if (material.base_texture)
-        base *= rgb(scene.textures[*material.base_texture].evaluate(uv));
+        base *= rgb(scene.textures[material.base_texture->texture].evaluate(uv));
     base = unit_range(base);
     Reflection reflection;
     if (material.model == scene::BsdfModel::lambert) {
@@ -75,14 +75,19 @@ Reflection reflection_of(const scene::Scene& scene,
         double metallic = material.metallic;
         double roughness = material.roughness;
         if (material.surface_texture) {
-            const Imath::V4f surface = scene.textures[*material.surface_texture].evaluate(uv);
+            const Imath::V4f surface =
+                scene.textures[material.surface_texture->texture].evaluate(uv);
             roughness *= surface.y;
             metallic *= surface.z;
         }
         roughness = std::clamp(roughness, 0.05, 1.0);
         reflection.alpha = roughness * roughness;
         reflection.diffuse = base * (1.0 - metallic);
-        reflection.specular = V3d(0.04 * (1.0 - metallic)) + base * metallic;
+        const V3d f0 = V3d(material.dielectric_f0) * double{material.dielectric_f90};
+        reflection.specular = f0 * (1.0 - metallic) + base * metallic;
+        reflection.grazing = material.dielectric_f90 * (1.0 - metallic) + metallic;
+        reflection.coat_f0 = std::max({f0.x, f0.y, f0.z});
+        reflection.coat_f90 = material.dielectric_f90;
     }
     return reflection;
 }
@@ -131,7 +136,7 @@ std::optional<Geometry::Hit> Geometry::solid_hit(const V3d& origin,
                            : blend(mesh.uvs, mesh.triangles[hit.triangle], hit.b1, hit.b2);
         double alpha = material.opacity;
         if (material.base_texture)
-            alpha *= scene_.textures[*material.base_texture].evaluate(Imath::V2f(uv)).w;
+            alpha *= scene_.textures[material.base_texture->texture].evaluate(Imath::V2f(uv)).w;
         if (alpha >= *material.alpha_cutoff)
             return hit;
         near = double{ray.ray.tfar} * (1.0 + 1e-6) + 1e-9;

@@ -24,8 +24,8 @@ V3d about(const V3d& axis, double cosine, double phi) {
     return s * (sine * std::cos(phi)) + t * (sine * std::sin(phi)) + axis * cosine;
 }
 
-double schlick(double f0, double cosine) {
-    return f0 + (1.0 - f0) * std::pow(1.0 - cosine, 5.0);
+double schlick(double f0, double f90, double cosine) {
+    return f0 + (f90 - f0) * std::pow(1.0 - cosine, 5.0);
 }
 
 // [Walter07 eq. 33], by tan θ.
@@ -62,12 +62,15 @@ V3d Reflection::value(const V3d& wi, const V3d& wo) const {
     const double g2 = 1.0 / (1.0 + smith_lambda(ci, alpha) + smith_lambda(co, alpha));
     const double lobe = ggx_d(h.dot(normal), alpha) * g2 / (4.0 * ci * co);
     // A dielectric coat over a diffuse base [Shirley97]: what enters on the way in and out,
-    // over the hemispherical mean 1 − (0.04 + 0.96/21).
-    const double layer = (1.0 - schlick(0.04, ci)) * (1.0 - schlick(0.04, co)) /
-                         (kPi * (1.0 - (0.04 + 0.96 / 21.0)));
+    // over the hemispherical mean 1 − (F0 + (F90 − F0)/21).
+    const double through = 1.0 - (coat_f0 + (coat_f90 - coat_f0) / 21.0);
+    const double layer = through < 1e-4
+                             ? 0.0
+                             : (1.0 - schlick(coat_f0, coat_f90, ci)) *
+                                   (1.0 - schlick(coat_f0, coat_f90, co)) / (kPi * through);
     V3d f;
     for (int c = 0; c < 3; ++c)
-        f[c] = diffuse[c] * layer + schlick(specular[c], wo.dot(h)) * lobe;
+        f[c] = diffuse[c] * layer + schlick(specular[c], grazing, wo.dot(h)) * lobe;
     return f;
 }
 

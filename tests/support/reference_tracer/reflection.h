@@ -16,6 +16,9 @@ struct Reflection {
     Imath::V3d specular{0, 0, 0};  // Phong ks; GGX F0
     double exponent = 0;           // Phong
     double alpha = 1;              // GGX
+    double grazing = 1;            // GGX F90
+    double coat_f0 = 0.04;         // GGX: the dielectric over the diffuse layer,
+    double coat_f90 = 1;           // straight on and at grazing angles
     Imath::V3d normal{0, 0, 1};    // shading normal, on the viewer's side
 
     // f in 1/sr, without the cosine; zero when either direction is below the normal's horizon.

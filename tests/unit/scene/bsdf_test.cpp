@@ -43,6 +43,12 @@ std::vector<NamedBsdf> all_bsdfs() {
         {"ggx_white_smooth", Bsdf::ggx({1, 1, 1}, 0, 0.35F)},
         {"ggx_metal", Bsdf::ggx({0.95F, 0.64F, 0.3F}, 1, 0.5F)},
         {"ggx_half_metal", Bsdf::ggx({0.4F, 0.7F, 0.9F}, 0.5F, 0.4F)},
+        {"ggx_diamond", Bsdf::ggx({1, 1, 1}, 0, 0.4F, {.f0 = Imath::V3f(0.172F)})},
+        {"ggx_tinted", Bsdf::ggx({1, 1, 1}, 0, 0.5F, {.f0 = {0.4F, 0, 0}})},
+        {"ggx_half_specular",
+         Bsdf::ggx({1, 1, 1}, 0.3F, 0.5F, {.f0 = Imath::V3f(0.02F), .f90 = 0.5F})},
+        {"ggx_no_specular", Bsdf::ggx({1, 1, 1}, 0, 0.5F, {.f0 = Imath::V3f(0), .f90 = 0})},
+        {"ggx_mirror_coat", Bsdf::ggx({1, 1, 1}, 0, 0.5F, {.f0 = Imath::V3f(1)})},
     };
 }
 
@@ -116,6 +122,9 @@ TEST_P(EveryBsdf, AgreesWithTheReferenceFormula) {
     reflection.specular = Imath::V3d(bsdf.specular_colour());
     reflection.exponent = bsdf.exponent();
     reflection.alpha = bsdf.alpha();
+    reflection.grazing = bsdf.grazing();
+    reflection.coat_f0 = bsdf.coat().f0;
+    reflection.coat_f90 = bsdf.coat().f90;
     Random random(2);
     for (int i = 0; i < 2000; ++i) {
         const Imath::V3f wi = any_direction(random);
@@ -310,6 +319,16 @@ TEST(Bsdf, ColoursAndParametersAreBounded) {
     EXPECT_EQ(Bsdf::ggx({1, 1, 1}, 0, 0).alpha(), Bsdf::kMinRoughness * Bsdf::kMinRoughness);
     const Bsdf bright = Bsdf::phong({0.9F, 0.9F, 0.9F}, {0.9F, 0.6F, 0.3F}, 20);
     EXPECT_NEAR(bright.diffuse_colour().x + bright.specular_colour().x, 1.0F, 1e-6F);
+}
+
+// Without a specular share the layer below has no coat: Lambert is left.
+TEST(Bsdf, DielectricOfNoReflectanceIsMatte) {
+    const Imath::V3f colour(0.8F, 0.5F, 0.2F);
+    const Bsdf bare = Bsdf::ggx(colour, 0, 0.5F, {.f0 = Imath::V3f(0), .f90 = 0});
+    const Imath::V3f wi = direction(0.3, 1.0);
+    const Imath::V3f wo = direction(0.6, 4.0);
+    const Imath::V3f apart = bare.evaluate(wi, wo) - Bsdf::lambert(colour).evaluate(wi, wo);
+    EXPECT_LT(apart.length(), 1e-6F);
 }
 
 }  // namespace

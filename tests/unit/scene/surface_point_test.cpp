@@ -159,6 +159,7 @@ TEST(SurfacePoint, NormalMapTiltsAlongTheTextureAxes) {
     // (0.8, 0.5, 0.9…) is tilted towards +u, which is +X here.
     scene.textures.emplace_back("normal", 1, 1,
                                 std::vector<half>{half(0.8F), half(0.5F), half(0.9F), half(1)});
+    finish_scene(scene);
     const SurfacePoint point = surface_point(scene, 0, 0, {0.2F, 0.2F}, {0, 0, -1});
     const Imath::V3f expected = Imath::V3f(0.6F, 0, 0.8F).normalized();
     EXPECT_LT((point.shading.normal - expected).length(), 2e-3F);
