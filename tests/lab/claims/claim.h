@@ -9,11 +9,13 @@
 namespace relume::lab {
 
 struct Claim {
-    std::string claim;   // with the threshold it is held to
-    std::string source;  // a key of protocol/references.bib with its place, or "thesis"
-    std::string found;   // figures
-    bool holds = false;  // computed from them
-    std::string why;     // why ours differ; empty where it holds
+    std::string claim;    // with the threshold it is held to
+    std::string source;   // a key of protocol/references.bib with its place
+    std::string measure;  // the one the source uses
+    std::string found;    // figures in it
+    std::string beside;   // the same in other measures, named; L2 of the image among them
+    bool holds = false;   // computed from `found`
+    std::string why;      // why ours differ; empty where it holds
 };
 
 // Claims that rest on the same evidence. Throws what the evidence throws.
@@ -24,8 +26,12 @@ using ClaimGroup = std::vector<Claim> (*)(Evidence& evidence);
 
 // A file each.
 [[nodiscard]] std::vector<Claim> rotation_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> rest_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> blend_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> selector_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> cost_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> incremental_sh_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> still_light_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> priority_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> sh_claims(Evidence& evidence);
 

@@ -60,9 +60,18 @@ const std::vector<LightRun>& Evidence::rotations() {
     if (rotations_.empty()) {
         std::vector<LightRun> runs;
         for (const std::string& light : options_.lights) {
-            runs.push_back(run(demo(), light, "slow-fast-slow",
-                               {"nwa-30", "nwa-60", "nwa-100", "nwa-300", "nwa-500", "bi-30",
-                                "pbi-30", "pbi-dealer-30", "pbi-exhaustive-30"}));
+            std::vector<std::string> methods{"bi-30",
+                                             "pbi-30",
+                                             "pbi-100",
+                                             "pbi-l2-30",
+                                             "pbi-dealer-30",
+                                             "pbi-dealer-l2-30",
+                                             "pbi-exhaustive-30",
+                                             "pbi-exhaustive-l2-30"};
+            for (const std::uint32_t terms : kTermsOfNwa) {
+                methods.push_back(fmt::format("nwa-{}", terms));
+            }
+            runs.push_back(run(demo(), light, "slow-fast-slow", methods));
         }
         rotations_ = std::move(runs);
     }
@@ -72,8 +81,13 @@ const std::vector<LightRun>& Evidence::rotations() {
 LightRun Evidence::run(const LabScene& scene,
                        const std::string& light,
                        const std::string& sequence,
-                       const std::vector<std::string>& methods) {
+                       const std::vector<std::string>& methods,
+                       const std::string& blended_with) {
     Experiment experiment = experiment_under(scene, light, sequence);
+    if (!blended_with.empty()) {
+        experiment.environments.blend =
+            load_environment(blended_with, scene.haar->face_resolution());
+    }
     for (const std::string& method : methods) {
         experiment.methods.push_back(method_from_text(method));
     }
@@ -82,7 +96,10 @@ LightRun Evidence::run(const LabScene& scene,
         return options_.go_on(what, done, experiment.sequence.images);
     };
     (void)options_.go_on(what, 0, experiment.sequence.images);
-    LightRun run{.light = light, .findings = run_experiment(experiment), .summaries = {}};
+    LightRun run{.light = light,
+                 .findings = run_experiment(experiment),
+                 .summaries = {},
+                 .rests_from = experiment.sequence.rests_from()};
     if (!run.findings.complete) {
         throw EvidenceInterrupted();
     }

@@ -6,6 +6,8 @@
 #include "tests/lab/measures/terms_sweep.h"
 #include "tests/lab/scenes/lab_scenes.h"
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -33,6 +35,7 @@ struct LightRun {
     std::string light;
     Findings findings;
     std::vector<Summary> summaries;
+    std::uint32_t rests_from = 0;  // the first image in which the light rests
 
     // Throws std::invalid_argument when the method did not take part.
     [[nodiscard]] const Summary& of(const std::string& method) const;
@@ -49,15 +52,18 @@ class Evidence {
     // The same with the view in spherical harmonics of order 20 beside it.
     [[nodiscard]] LabScene scene_in_both_bases(const std::string& builtin);
 
-    // The demo scene under every light, slow-fast-slow: NWA with 30, 60, 100, 300 and 500
-    // terms, BI and PBI with 30, PBI with the two other selectors, all by area.
+    // The demo scene under every light, slow-fast-slow: NWA with ever more terms, BI with 30,
+    // PBI with 30 and 100, PBI-30 with the other selectors and norms, all by area.
     [[nodiscard]] const std::vector<LightRun>& rotations();
+    static constexpr std::array<std::uint32_t, 8> kTermsOfNwa{30,  60,  100, 150,
+                                                              200, 300, 500, 1000};
 
-    // Any methods over any sequence; not kept.
+    // Any methods over any sequence; not kept. `blended_with` is the sequence's second light.
     [[nodiscard]] LightRun run(const LabScene& scene,
                                const std::string& light,
                                const std::string& sequence,
-                               const std::vector<std::string>& methods);
+                               const std::vector<std::string>& methods,
+                               const std::string& blended_with = {});
     // The first light of slow-fast-slow with ever more terms, a curve for each of `forms`
     // (sweep_terms); not kept.
     [[nodiscard]] std::vector<TermsCurve> terms(const LabScene& scene,

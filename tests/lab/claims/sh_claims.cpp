@@ -68,8 +68,10 @@ Claim all_frequency_claim(Evidence& evidence, const LabScene& scene) {
         .claim =
             "Under all-frequency light wavelets need one to two orders of magnitude "
             "fewer terms than SH at equal error: ratio at SH-18 ≥ 10",
-        .source = "[Ng03 §4.1]",
+        .source = "[Ng03 §4.1.2]",
+        .measure = "L2 of the image",
         .found = "terms of SH over terms of NWA by area, table: " + figures(lights, {8, 18}),
+        .beside = "",
         .holds = holds,
         .why = holds ? ""
                      : "The first light of the sequence alone; where the map is lit by "
@@ -85,8 +87,10 @@ Claim low_frequency_claim(Evidence& evidence, const LabScene& scene) {
         .claim =
             "Under low-frequency light both need about as many terms: ratio at SH-3 "
             "within a factor of two of 1",
-        .source = "[Ng03 §4.1]",
+        .source = "[Ng03 §4.1.2]",
+        .measure = "L2 of the image",
         .found = "terms of SH over terms of NWA by area, table: " + figures(lights, {2, 3, 5}),
+        .beside = "",
         .holds = holds,
         .why = holds ? ""
                      : "An overcast sky is a polynomial of low degree, but for the horizon; "
@@ -153,8 +157,10 @@ Claim ringing_claim(const LabScene& scene) {
     return {.claim =
                 "SH ring around a bare sun: over 10 % of the texels are negative, with 100 "
                 "wavelet terms they are not",
-            .source = "[Ng03 §4.1]",
+            .source = "[Ng03 §4.1.1]",
+            .measure = "texels below zero",
             .found = "table, bare-sun: " + found,
+            .beside = "",
             .holds = holds,
             .why = holds ? "" : "See the figures."};
 }

@@ -29,10 +29,8 @@ LabScene demo_scene(const SeedsOptions& options) {
 }
 
 nlohmann::json json_from(const Claim& claim) {
-    return {{"claim", claim.claim},
-            {"source", claim.source},
-            {"found", claim.found},
-            {"holds", claim.holds},
+    return {{"claim", claim.claim}, {"source", claim.source}, {"measure", claim.measure},
+            {"found", claim.found}, {"beside", claim.beside}, {"holds", claim.holds},
             {"why", claim.why}};
 }
 
@@ -47,10 +45,12 @@ std::string json_report(const std::vector<Claim>& claims) {
 // As Markdown, so that it can stand in a README.
 std::string table_report(const std::vector<Claim>& claims) {
     std::string table =
-        "| claim | source | found | holds | why ours differ |\n|---|---|---|---|---|\n";
+        "| claim | source | its measure | found | beside it | holds | why ours "
+        "differ |\n|---|---|---|---|---|---|---|\n";
     for (const Claim& claim : claims) {
-        table += fmt::format("| {} | {} | {} | {} | {} |\n", claim.claim, claim.source,
-                             claim.found, claim.holds ? "yes" : "no", claim.why);
+        table += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", claim.claim,
+                             claim.source, claim.measure, claim.found, claim.beside,
+                             claim.holds ? "yes" : "no", claim.why);
     }
     return table;
 }

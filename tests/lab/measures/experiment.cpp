@@ -1,11 +1,15 @@
 #include "tests/lab/measures/experiment.h"
 
+#include "protocol/basis/cubemap.h"
 #include "server/engine/session.h"
 #include "tests/lab/measures/lighting_error.h"
 #include "tests/lab/measures/perceptual_difference.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <deque>
+#include <optional>
 #include <utility>
 
 namespace relume::lab {
@@ -86,6 +90,23 @@ class Entrant {
         return record;
     }
 
+    // Nothing for a method that is not in wavelets.
+    [[nodiscard]] std::optional<Coverage> coverage(std::uint32_t face_resolution) const {
+        if (covered_.size() != basis::texel_count(face_resolution)) {
+            return std::nullopt;
+        }
+        std::vector<bool> together(covered_.size());
+        for (const std::vector<bool>& updated : recent_) {
+            for (std::size_t j = 0; j < updated.size(); ++j) {
+                together[j] = together[j] || updated[j];
+            }
+        }
+        return Coverage{.method = label_,
+                        .image = 0,
+                        .levels = covered_levels(face_resolution, recent_.back()),
+                        .cumulative = covered_levels(face_resolution, together)};
+    }
+
     [[nodiscard]] const std::string& label() const { return label_; }
     [[nodiscard]] const std::vector<float>& image() const { return image_; }
 
@@ -93,6 +114,10 @@ class Entrant {
     void record_bands(std::uint32_t bands_reset, Record& record) {
         const LightingView lighting = contestant_->lighting();
         const std::size_t count = lighting.bands.size();
+        recent_.emplace_back(count);
+        if (recent_.size() > kCoverageImages) {
+            recent_.pop_front();
+        }
         for (std::size_t j = 0; j < count; ++j) {
             const std::uint32_t b = lighting.bands[j];
             record.bands.resize(std::max<std::size_t>(record.bands.size(), b + 1));
@@ -105,10 +130,13 @@ class Entrant {
                 const float shown = lighting.approximation[i];
                 updated = updated || shown != (reset ? 0 : previous_approximation_[i]);
                 band.residual_energy += square(double{target} - double{shown});
+                band.residual_l1 += std::abs(double{target} - double{shown});
+                band.light_l1 += std::abs(double{target});
                 band.change_energy += square(double{target} - double{previous_target_[i]});
             }
             band.updated += updated ? 1 : 0;
             covered_[j] = covered_[j] || updated;
+            recent_.back()[j] = updated;
         }
         record.covered =
             static_cast<std::uint32_t>(std::count(covered_.begin(), covered_.end(), true));
@@ -126,6 +154,7 @@ class Entrant {
     std::vector<float> previous_target_;
     std::vector<float> previous_approximation_;
     std::vector<bool> covered_;
+    std::deque<std::vector<bool>> recent_;  // updated in the last images, the newest last
 };
 
 }  // namespace
@@ -142,11 +171,13 @@ Findings run_experiment(const Experiment& experiment) {
     for (const Method& method : experiment.methods) {
         entrants.emplace_back(method, experiment.scene, values);
     }
+    TemporalBands temporal_bands(scene.bands());
     Findings findings;
     for (std::uint32_t i = 0; i < experiment.sequence.images; ++i) {
         light::evaluate(rig_of_image(experiment.sequence, experiment.environments, i),
                         scene.face_resolution(), radiance);
         light::lighting_coefficients(radiance, scene.projection(), lighting);
+        temporal_bands.add(lighting);
         reference.write_image(lighting, reference_image);
         const Truth truth{.light = {.radiance = radiance, .haar = lighting},
                           .image = reference_image,
@@ -162,6 +193,10 @@ Findings run_experiment(const Experiment& experiment) {
             if (keep) {
                 findings.pictures.push_back(
                     {.method = entrant.label(), .image = i, .rgb = entrant.image()});
+                if (auto coverage = entrant.coverage(scene.face_resolution())) {
+                    coverage->image = i;
+                    findings.coverages.push_back(std::move(*coverage));
+                }
             }
         }
         findings.images_done = i + 1;
@@ -169,6 +204,7 @@ Findings run_experiment(const Experiment& experiment) {
             break;
         }
     }
+    findings.spectrum = temporal_bands.spectrum();
     findings.complete = findings.images_done == experiment.sequence.images;
     return findings;
 }

@@ -1,7 +1,9 @@
 // Runs methods over a lighting sequence on one scene and measures every image.
 #pragma once
 
+#include "tests/lab/measures/coverage.h"
 #include "tests/lab/measures/record.h"
+#include "tests/lab/measures/temporal_bands.h"
 #include "tests/lab/methods/method.h"
 #include "tests/lab/sequences/lighting_sequence.h"
 
@@ -32,6 +34,8 @@ struct Picture {
 struct Findings {
     std::vector<Record> records;  // image by image, methods in their order
     std::vector<Picture> pictures;
+    std::vector<Coverage> coverages;  // of the images kept, by methods in wavelets
+    TemporalSpectrum spectrum;        // of the light asked for
     std::uint32_t images_done = 0;
     bool complete = false;  // false: `go_on` ended it
 };

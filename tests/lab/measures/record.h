@@ -14,6 +14,8 @@ namespace relume::lab {
 struct BandRecord {
     std::uint32_t updated = 0;   // columns added in this image
     double residual_energy = 0;  // Σ (L − L̃)² after it
+    double residual_l1 = 0;      // Σ |L − L̃| after it
+    double light_l1 = 0;         // Σ |L|
     double change_energy = 0;    // Σ (L − L of the image before)²
 };
 

@@ -12,36 +12,46 @@ namespace {
 
 using engine::Ranking;
 
-// ‖w ΔL‖₂ of one column from its importance.
-double norm_from_importance(float importance) {
-    return importance == Ranking::kNoDifference ? 0 : std::sqrt(double{importance});
+// A column's part of the error from its importance, ‖w ΔL‖₂².
+double error_from_importance(float importance, Norm norm) {
+    if (importance == Ranking::kNoDifference) {
+        return 0;
+    }
+    return norm == Norm::l1 ? std::sqrt(double{importance}) : double{importance};
 }
 
-double norm_after_resets(const BandChoice& choice,
-                         const engine::Plan& plan,
-                         std::size_t place) {
-    const std::uint32_t column = choice.scene.columns_by_band()[place];
-    return norm_from_importance(plan.resets(choice.scene.bands()[column])
-                                    ? choice.ranking.from_nothing()[place]
-                                    : choice.ranking.as_shown()[place]);
+// Columns of a band, as places in Scene::columns_by_band.
+struct Places {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+std::vector<Places> places_of_bands(const engine::Scene& scene) {
+    std::vector<Places> bands;
+    std::size_t first = 0;
+    for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
+        bands.push_back({.first = first, .count = scene.columns_of_band(band).size()});
+        first += bands.back().count;
+    }
+    return bands;
 }
 
 // What is left of a band when so many of its largest terms are taken: [0] none, … falling.
 class Remainders {
   public:
-    Remainders(std::span<const float> importances, std::uint32_t most_terms) {
-        std::vector<double> norms;
+    Remainders(std::span<const float> importances, std::uint32_t most_terms, Norm norm) {
+        std::vector<double> errors;
         double left = 0;
         for (const float importance : importances) {
-            norms.push_back(norm_from_importance(importance));
-            left += norms.back();
+            errors.push_back(error_from_importance(importance, norm));
+            left += errors.back();
         }
-        const std::size_t kept = std::min<std::size_t>(most_terms, norms.size());
-        std::partial_sort(norms.begin(), norms.begin() + static_cast<std::ptrdiff_t>(kept),
-                          norms.end(), std::greater<>());
+        const std::size_t kept = std::min<std::size_t>(most_terms, errors.size());
+        std::partial_sort(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept),
+                          errors.end(), std::greater<>());
         left_.push_back(left);
         for (std::size_t i = 0; i < kept; ++i) {
-            left -= norms[i];
+            left -= errors[i];
             left_.push_back(left);
         }
     }
@@ -69,10 +79,44 @@ struct Hand {
     }
 };
 
+class SimpleSelector final : public BandSelector {
+  public:
+    explicit SimpleSelector(Norm norm) : norm_(norm) {}
+
+    std::uint32_t bands_to_reset(const BandChoice& choice) override {
+        std::uint32_t mask = 0;
+        std::uint32_t band = 0;
+        for (const Places& places : places_of_bands(choice.scene)) {
+            double as_shown = 0;
+            double from_nothing = 0;
+            for (std::size_t i = places.first; i < places.first + places.count; ++i) {
+                as_shown += error_from_importance(choice.ranking.as_shown()[i], norm_);
+                from_nothing += error_from_importance(choice.ranking.from_nothing()[i], norm_);
+            }
+            mask |= from_nothing < as_shown ? 1U << band : 0U;
+            ++band;
+        }
+        return mask;
+    }
+
+  private:
+    Norm norm_;
+};
+
 class DealerSelector final : public BandSelector {
   public:
+    explicit DealerSelector(Norm norm) : norm_(norm) {}
+
     std::uint32_t bands_to_reset(const BandChoice& choice) override {
-        std::vector<Hand> hands = hands_of(choice);
+        std::vector<Hand> hands;
+        for (const Places& places : places_of_bands(choice.scene)) {
+            const auto remainders = [&](std::span<const float> importances) {
+                return Remainders(importances.subspan(places.first, places.count),
+                                  choice.budget.columns, norm_);
+            };
+            hands.push_back({.as_shown = remainders(choice.ranking.as_shown()),
+                             .from_nothing = remainders(choice.ranking.from_nothing())});
+        }
         for (std::uint32_t dealt = 0; dealt < choice.budget.columns; ++dealt) {
             const auto best = std::max_element(
                 hands.begin(), hands.end(),
@@ -90,27 +134,13 @@ class DealerSelector final : public BandSelector {
     }
 
   private:
-    static std::vector<Hand> hands_of(const BandChoice& choice) {
-        std::vector<Hand> hands;
-        std::size_t first = 0;
-        for (std::uint32_t band = 0; band < choice.scene.band_count(); ++band) {
-            std::size_t last = first;
-            for (const engine::BandChunk& chunk : choice.scene.band_chunks()) {
-                last = chunk.band == band ? chunk.last : last;
-            }
-            hands.push_back(
-                {.as_shown = {choice.ranking.as_shown().subspan(first, last - first),
-                              choice.budget.columns},
-                 .from_nothing = {choice.ranking.from_nothing().subspan(first, last - first),
-                                  choice.budget.columns}});
-            first = last;
-        }
-        return hands;
-    }
+    Norm norm_;
 };
 
 class ExhaustiveSelector final : public BandSelector {
   public:
+    explicit ExhaustiveSelector(Norm norm) : norm_(norm) {}
+
     std::uint32_t bands_to_reset(const BandChoice& choice) override {
         std::uint32_t best = 0;
         double least = std::numeric_limits<double>::infinity();
@@ -118,7 +148,7 @@ class ExhaustiveSelector final : public BandSelector {
             plan_.bands_to_reset = mask;
             selection_.choose(choice.scene, choice.lighting, choice.ranking,
                               choice.scene.places(), choice.budget, plan_);
-            const double error = remaining_lighting_error(choice, plan_);
+            const double error = remaining_lighting_error(choice, plan_, norm_);
             if (error < least) {
                 least = error;
                 best = mask;
@@ -128,33 +158,41 @@ class ExhaustiveSelector final : public BandSelector {
     }
 
   private:
+    Norm norm_;
     engine::Selection selection_;
     engine::Plan plan_;
 };
 
 }  // namespace
 
-double remaining_lighting_error(const BandChoice& choice, const engine::Plan& plan) {
+double remaining_lighting_error(const BandChoice& choice, const engine::Plan& plan, Norm norm) {
     // The changes come in the order of places, so that one walk meets them all.
+    const std::span<const std::uint32_t> columns = choice.scene.columns_by_band();
     double error = 0;
     auto next = plan.changes.begin();
-    for (std::size_t place = 0; place < choice.scene.columns_by_band().size(); ++place) {
-        if (next != plan.changes.end() &&
-            next->column == choice.scene.columns_by_band()[place]) {
+    for (std::size_t place = 0; place < columns.size(); ++place) {
+        if (next != plan.changes.end() && next->column == columns[place]) {
             ++next;
-        } else {
-            error += norm_after_resets(choice, plan, place);
+            continue;
         }
+        const bool begins_anew = plan.resets(choice.scene.bands()[columns[place]]);
+        error += error_from_importance(begins_anew ? choice.ranking.from_nothing()[place]
+                                                   : choice.ranking.as_shown()[place],
+                                       norm);
     }
     return error;
 }
 
-std::unique_ptr<BandSelector> make_dealer_selector() {
-    return std::make_unique<DealerSelector>();
+std::unique_ptr<BandSelector> make_simple_selector(Norm norm) {
+    return std::make_unique<SimpleSelector>(norm);
 }
 
-std::unique_ptr<BandSelector> make_exhaustive_selector() {
-    return std::make_unique<ExhaustiveSelector>();
+std::unique_ptr<BandSelector> make_dealer_selector(Norm norm) {
+    return std::make_unique<DealerSelector>(norm);
+}
+
+std::unique_ptr<BandSelector> make_exhaustive_selector(Norm norm) {
+    return std::make_unique<ExhaustiveSelector>(norm);
 }
 
 }  // namespace relume::lab

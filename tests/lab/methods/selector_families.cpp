@@ -1,10 +1,9 @@
 // PBI with the band selectors of the thesis, made of the engine's parts.
-#include "server/engine/band_images.h"
-#include "server/engine/error_estimate.h"
-#include "server/engine/relit_image.h"
+#include "server/engine/ranking.h"
+#include "server/engine/selection.h"
 #include "tests/lab/methods/band_selector.h"
 #include "tests/lab/methods/families.h"
-#include "tests/lab/methods/light_radiance.h"
+#include "tests/lab/methods/planned_contestant.h"
 #include "tests/lab/methods/wavelet_terms.h"
 
 #include <stdexcept>
@@ -13,92 +12,69 @@
 namespace relume::lab {
 namespace {
 
-class SelectorContestant final : public Contestant {
-  public:
-    SelectorContestant(std::shared_ptr<const engine::Scene> scene,
-                       const WaveletTerms& terms,
-                       std::unique_ptr<BandSelector> selector)
-        : scene_(std::move(scene)),
-          budget_(terms.budget),
-          priority_(terms.priority),
-          selector_(std::move(selector)),
-          lighting_(*scene_),
-          lit_(*scene_),
-          images_(*scene_),
-          error_(*scene_) {}
+using MakeSelector = std::unique_ptr<BandSelector> (*)(Norm);
 
-    void set_light(const ImageLight& light) override { lighting_.set_target(light.haar); }
-    Step step() override {
-        lit_.set_nearly(lighting_.target(), engine::kSurelyNegligible);
-        error_.set_target(lit_);
-        ranking_.rank(*scene_, lighting_, scene_->weights(priority_));
-        plan_.bands_to_reset = selector_->bands_to_reset(
-            {.scene = *scene_, .lighting = lighting_, .ranking = ranking_, .budget = budget_});
-        selection_.choose(*scene_, lighting_, ranking_, scene_->places(), budget_, plan_);
-        images_.update(plan_.bands_to_reset, plan_.changes);
-        lighting_.apply(plan_);
-        error_.apply(plan_);
-        return {.applied = static_cast<std::uint32_t>(plan_.changes.size()),
-                .bands_reset = plan_.bands_to_reset,
-                .bytes = plan_.bytes,
-                .band_bytes = images_.bytes_of_bands(),
-                .stated_error = error_.relative_l2()};
-    }
-    void write_image(std::span<float> rgb) const override {
-        engine::write_relit_image(*scene_, images_.total(), rgb);
-    }
-    [[nodiscard]] LightingView lighting() const override {
-        return {.target = lighting_.target(),
-                .approximation = lighting_.approximation(),
-                .bands = scene_->bands()};
-    }
-    void write_radiance(light::LightCubemap& out) const override {
-        radiance_from_coefficients(lighting_.approximation(), scene_->projection(), out);
+// The selector's resets, then the most important differences.
+class SelectorPlanMaker final : public PlanMaker {
+  public:
+    SelectorPlanMaker(const WaveletTerms& terms, std::unique_ptr<BandSelector> selector)
+        : budget_(terms.budget), priority_(terms.priority), selector_(std::move(selector)) {}
+
+    void make(const engine::Scene& scene,
+              const engine::Lighting& lighting,
+              engine::Plan& plan) override {
+        ranking_.rank(scene, lighting, scene.weights(priority_));
+        plan.bands_to_reset = selector_->bands_to_reset(
+            {.scene = scene, .lighting = lighting, .ranking = ranking_, .budget = budget_});
+        selection_.choose(scene, lighting, ranking_, scene.places(), budget_, plan);
     }
 
   private:
-    std::shared_ptr<const engine::Scene> scene_;
     engine::SelectionBudget budget_;
     wire::Priority priority_;
     std::unique_ptr<BandSelector> selector_;
-    engine::Lighting lighting_;
-    engine::LitColumns lit_;
     engine::Ranking ranking_;
     engine::Selection selection_;
-    engine::Plan plan_;
-    engine::BandImages images_;
-    engine::ErrorEstimate error_;
 };
 
 MethodFamily selector_family(std::string name,
                              std::string summary,
-                             std::unique_ptr<BandSelector> (*make_selector)()) {
-    return {.name = name,
+                             MakeSelector make_selector,
+                             Norm norm) {
+    const auto parse = [name, make_selector, norm](std::string_view rest) {
+        const WaveletTerms terms = wavelet_terms_from_text(rest);
+        if (terms.counts_bytes()) {
+            throw std::invalid_argument(
+                "its terms are counted: expected a number of coefficients, not of bytes");
+        }
+        return Method{.label = name + "-" + terms.text,
+                      .enter = [terms, make_selector, norm](const LabScene& scene) {
+                          return std::make_unique<PlannedContestant>(
+                              scene.haar,
+                              std::make_unique<SelectorPlanMaker>(terms, make_selector(norm)));
+                      }};
+    };
+    return {.name = std::move(name),
             .form = std::string(kWaveletTermsForm),
             .summary = std::move(summary),
-            .parse = [name, make_selector](std::string_view rest) {
-                const WaveletTerms terms = wavelet_terms_from_text(rest);
-                if (terms.counts_bytes()) {
-                    throw std::invalid_argument(
-                        "its terms are counted: expected a number of "
-                        "coefficients, not of bytes");
-                }
-                return Method{.label = name + "-" + terms.text,
-                              .enter = [terms, make_selector](const LabScene& scene) {
-                                  return std::make_unique<SelectorContestant>(scene.haar, terms,
-                                                                              make_selector());
-                              }};
-            }};
+            .parse = parse};
 }
 
 }  // namespace
 
 void add_selector_families(std::vector<MethodFamily>& families) {
-    families.push_back(selector_family(
-        "pbi-dealer", "bi, terms are dealt to bands [thesis 6.2]", make_dealer_selector));
+    families.push_back(selector_family("pbi-l2", "pbi, the norm of a band L2 [Overbeck06T 6.2]",
+                                       make_simple_selector, Norm::l2));
+    families.push_back(selector_family("pbi-dealer",
+                                       "pbi, terms are dealt to bands [Overbeck06T 6.2]",
+                                       make_dealer_selector, Norm::l1));
+    families.push_back(selector_family("pbi-dealer-l2", "the same, the norm L2",
+                                       make_dealer_selector, Norm::l2));
     families.push_back(selector_family("pbi-exhaustive",
-                                       "bi, the best of all sets of bands [thesis 6.2]",
-                                       make_exhaustive_selector));
+                                       "pbi, the best of all sets of bands [Overbeck06T 6.2]",
+                                       make_exhaustive_selector, Norm::l1));
+    families.push_back(selector_family("pbi-exhaustive-l2", "the same, the norm L2",
+                                       make_exhaustive_selector, Norm::l2));
 }
 
 }  // namespace relume::lab

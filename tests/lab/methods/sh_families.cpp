@@ -1,5 +1,7 @@
-// Methods in spherical harmonics: sh, linear; pbi-sh, incremental (server/engine/README.md).
+// Methods in spherical harmonics: sh, linear; pbi-sh, the engine's PBI; pbi-sh-filled, the
+// thesis' own.
 #include "protocol/transport/transport.h"
+#include "tests/lab/methods/band_filling.h"
 #include "tests/lab/methods/families.h"
 #include "tests/lab/methods/session_contestant.h"
 #include "tests/lab/methods/wavelet_terms.h"
@@ -80,6 +82,21 @@ Method incremental_method(std::string_view rest) {
             }};
 }
 
+// The same, bands filled from the lowest.
+Method filled_method(std::string_view rest) {
+    std::uint32_t columns = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), columns);
+    if (error != std::errc() || end != rest.data() + rest.size() || columns == 0) {
+        throw std::invalid_argument(
+            fmt::format("budget '{}', expected a number of coefficients", rest));
+    }
+    return {.label = fmt::format("pbi-sh-filled-{}", columns),
+            .enter = [columns](const LabScene& scene) {
+                return std::make_unique<PlannedContestant>(sh_scene(scene, 1),
+                                                           make_band_filling(columns));
+            }};
+}
+
 }  // namespace
 
 void add_sh_families(std::vector<MethodFamily>& families) {
@@ -89,8 +106,13 @@ void add_sh_families(std::vector<MethodFamily>& families) {
                         .parse = linear_method});
     families.push_back({.name = "pbi-sh",
                         .form = std::string(kWaveletTermsForm),
-                        .summary = "pbi in spherical harmonics, a band an l [thesis 8]",
+                        .summary = "pbi in spherical harmonics, a band an l",
                         .parse = incremental_method});
+    families.push_back(
+        {.name = "pbi-sh-filled",
+         .form = "COLUMNS",
+         .summary = "the same, bands filled from the lowest [Overbeck06T fig. 8.1]",
+         .parse = filled_method});
 }
 
 }  // namespace relume::lab

@@ -1,8 +1,10 @@
 #include "tests/lab/report/run_report.h"
 
 #include "protocol/transport/atomic_file.h"
+#include "tests/lab/charts/coverage_sheet.h"
 #include "tests/lab/charts/picture_sheet.h"
 #include "tests/lab/charts/run_charts.h"
+#include "tests/lab/charts/temporal_chart.h"
 #include "tests/lab/measures/record_table.h"
 #include "tests/lab/measures/summary.h"
 #include "tests/lab/report/html_page.h"
@@ -39,6 +41,25 @@ std::vector<Picture> pictures_of_image(const Findings& findings, std::uint32_t i
                  std::back_inserter(pictures),
                  [&](const Picture& picture) { return picture.image == image; });
     return pictures;
+}
+
+void add_coverage(const fs::path& folder,
+                  const std::string& title,
+                  const Experiment& experiment,
+                  const Findings& findings,
+                  std::uint32_t image,
+                  HtmlPage& page) {
+    std::vector<Coverage> coverages;
+    std::copy_if(findings.coverages.begin(), findings.coverages.end(),
+                 std::back_inserter(coverages),
+                 [&](const Coverage& coverage) { return coverage.image == image; });
+    if (coverages.empty()) {
+        return;
+    }
+    const fs::path stem = folder / fmt::format("coverage-{:03}", image);
+    draw_coverage_sheet(stem, fmt::format("{}, image {}: levels updated", title, image),
+                        coverages, experiment.scene.haar->face_resolution());
+    page.png(stem.string() + ".png");
 }
 
 void add_summary(const Experiment& experiment, const Findings& findings, HtmlPage& page) {
@@ -97,6 +118,11 @@ void write_run_report(const fs::path& folder,
     add_chart("Coverage", "coverage", draw_coverage_chart);
     add_chart("Updates by band", "bands", draw_band_chart);
     add_chart("Energy by band and image", "energy", draw_energy_map);
+    if (findings.spectrum.images > 1) {
+        draw_temporal_chart(folder / "temporal", input.title, findings.spectrum);
+        page.heading("Energy by band and duration of change");
+        page.svg(folder / "temporal.svg");
+    }
     for (const std::uint32_t image : experiment.pictures) {
         const std::vector<Picture> pictures = pictures_of_image(findings, image);
         if (!pictures.empty()) {
@@ -105,6 +131,7 @@ void write_run_report(const fs::path& folder,
                                experiment.scene.haar->image().width);
             page.heading(fmt::format("Image {}", image));
             page.png(stem.string() + ".png");
+            add_coverage(folder, title, experiment, findings, image, page);
         }
     }
     page.write(folder / "report.html");

@@ -1,4 +1,4 @@
-// The thesis' selectors in their own measure.
+// The selectors of [Overbeck06T 6.2] in their own measure.
 #include "tests/lab/methods/band_selector.h"
 
 #include "tests/support/random_lighting.h"
@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <tuple>
 #include <utility>
 
 namespace relume::lab {
@@ -14,11 +16,12 @@ namespace {
 constexpr std::uint32_t kFace = 16;
 
 // A lighting that has followed one light for some images and is then asked for another.
-class SelectorTest : public testing::TestWithParam<std::pair<std::uint32_t, std::uint64_t>> {
+class SelectorTest
+    : public testing::TestWithParam<std::tuple<std::pair<std::uint32_t, std::uint64_t>, Norm>> {
   protected:
     SelectorTest()
         : scene_({.light_basis = basis::LightBasis::haar(kFace)}), lighting_(*scene_.scene()) {
-        const auto [terms, seed] = GetParam();
+        const auto [terms, seed] = std::get<0>(GetParam());
         budget_.columns = terms;
         lighting_.set_target(test::random_lighting(kFace, seed));
         rank();
@@ -48,8 +51,9 @@ class SelectorTest : public testing::TestWithParam<std::pair<std::uint32_t, std:
         return plan;
     }
     double remaining(std::uint32_t bands_to_reset) {
-        return remaining_lighting_error(choice(), plan_with(bands_to_reset));
+        return remaining_lighting_error(choice(), plan_with(bands_to_reset), norm());
     }
+    static Norm norm() { return std::get<1>(GetParam()); }
 
     engine::TinyScene scene_;
     engine::Lighting lighting_;
@@ -59,7 +63,7 @@ class SelectorTest : public testing::TestWithParam<std::pair<std::uint32_t, std:
 };
 
 TEST_P(SelectorTest, ExhaustiveLeavesNoMoreThanAnySet) {
-    const double best = remaining(make_exhaustive_selector()->bands_to_reset(choice()));
+    const double best = remaining(make_exhaustive_selector(norm())->bands_to_reset(choice()));
     for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->band_count(); ++mask) {
         EXPECT_LE(best, remaining(mask)) << mask;
     }
@@ -67,27 +71,40 @@ TEST_P(SelectorTest, ExhaustiveLeavesNoMoreThanAnySet) {
 
 TEST_P(SelectorTest, DealerLeavesNoMoreThanToGoOnWithNoResets) {
     // Every band it begins anew leaves less of it than the same hand as an increment.
-    const double dealt = remaining(make_dealer_selector()->bands_to_reset(choice()));
+    const double dealt = remaining(make_dealer_selector(norm())->bands_to_reset(choice()));
     EXPECT_LE(dealt, remaining(0) * (1 + 1e-9));
 }
 
+TEST_P(SelectorTest, SimpleLeavesNoMoreThanAnySetBeforeTermsAreSpent) {
+    const auto before_terms = [&](std::uint32_t mask) {
+        engine::Plan nothing;
+        nothing.bands_to_reset = mask;
+        return remaining_lighting_error(choice(), nothing, norm());
+    };
+    const double best = before_terms(make_simple_selector(norm())->bands_to_reset(choice()));
+    for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->band_count(); ++mask) {
+        EXPECT_LE(best, before_terms(mask) * (1 + 1e-12)) << mask;
+    }
+}
+
 TEST_P(SelectorTest, RemainingErrorIsThatOfTheLightingCarriedOut) {
-    const std::uint32_t mask = make_exhaustive_selector()->bands_to_reset(choice());
+    const std::uint32_t mask = make_exhaustive_selector(norm())->bands_to_reset(choice());
     const double promised = remaining(mask);
     lighting_.apply(plan_with(mask));
     rank();
     engine::Plan nothing;
-    EXPECT_NEAR(remaining_lighting_error(choice(), nothing), promised, 1e-6 * promised);
+    EXPECT_NEAR(remaining_lighting_error(choice(), nothing, norm()), promised, 1e-6 * promised);
 }
 
 INSTANTIATE_TEST_SUITE_P(TermsAndSeeds,
                          SelectorTest,
-                         testing::Values(std::pair(1U, 1ULL),
-                                         std::pair(10U, 2ULL),
-                                         std::pair(30U, 3ULL),
-                                         std::pair(30U, 4ULL),
-                                         std::pair(300U, 5ULL),
-                                         std::pair(5000U, 6ULL)));
+                         testing::Combine(testing::Values(std::pair(1U, 1ULL),
+                                                          std::pair(10U, 2ULL),
+                                                          std::pair(30U, 3ULL),
+                                                          std::pair(30U, 4ULL),
+                                                          std::pair(300U, 5ULL),
+                                                          std::pair(5000U, 6ULL)),
+                                          testing::Values(Norm::l1, Norm::l2)));
 
 TEST(BandSelector, AtRestNothingIsReset) {
     const engine::TinyScene scene({.light_basis = basis::LightBasis::haar(kFace)});
@@ -100,8 +117,11 @@ TEST(BandSelector, AtRestNothingIsReset) {
                             .lighting = lighting,
                             .ranking = ranking,
                             .budget = {.columns = 30, .bytes = ~std::uint64_t{0}}};
-    EXPECT_EQ(make_dealer_selector()->bands_to_reset(choice), 0U);
-    EXPECT_EQ(make_exhaustive_selector()->bands_to_reset(choice), 0U);
+    for (const Norm norm : {Norm::l1, Norm::l2}) {
+        EXPECT_EQ(make_simple_selector(norm)->bands_to_reset(choice), 0U);
+        EXPECT_EQ(make_dealer_selector(norm)->bands_to_reset(choice), 0U);
+        EXPECT_EQ(make_exhaustive_selector(norm)->bands_to_reset(choice), 0U);
+    }
 }
 
 }  // namespace

@@ -19,8 +19,10 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(Method, ALabelNamesTheSameMethodAgain) {
-    for (const char* text : {"nwa-30", "bi-100-none", "pbi-30-transport", "pbi-dealer-30",
-                             "pbi-exhaustive-7-area", "guarded-400kB-benefit", "bi-2MB"}) {
+    for (const char* text :
+         {"nwa-30", "bi-100-none", "pbi-30-transport", "pbi-dealer-30", "pbi-exhaustive-7-area",
+          "pbi-l2-30", "pbi-dealer-l2-30", "pbi-sh-25", "pbi-sh-filled-25",
+          "guarded-400kB-benefit", "bi-2MB"}) {
         const std::string label = method_from_text(text).label;
         EXPECT_EQ(method_from_text(label).label, label) << text;
         EXPECT_EQ(label.rfind(text, 0), 0U) << text;
