@@ -20,6 +20,7 @@ enum class SceneFault {
     bad_camera,
     too_large,
     unknown_name,
+    unsupported_extension,
 };
 
 class SceneError : public std::runtime_error {

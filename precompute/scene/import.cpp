@@ -1,6 +1,7 @@
 #include "precompute/scene/import.h"
 
 #include "precompute/scene/error.h"
+#include "precompute/scene/gltf/import_gltf.h"
 #include "precompute/scene/import_assimp.h"
 #include "precompute/scene/imported_scene.h"
 
@@ -71,7 +72,9 @@ Scene import_scene(const fs::path& path, const ImportOptions& options) {
     const FileFormat format = format_of(path);
     check_file(path, options.max_file_bytes);
     try {
-        ImportedScene imported = import_with_assimp(path, format, options);
+        ImportedScene imported = format == FileFormat::gltf
+                                     ? gltf::import_gltf(path, options)
+                                     : import_with_assimp(path, format, options);
         imported.scene.camera = choose_camera(path, options, imported);
         Scene scene = scene_in_float(std::move(imported));
         finish_scene(scene);

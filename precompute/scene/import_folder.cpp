@@ -10,6 +10,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_inside(const fs::path& folder, const fs::path& path) {
+    const fs::path relative = fs::absolute(path).lexically_normal().lexically_relative(
+        fs::absolute(folder).lexically_normal());
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
 std::string percent_decoded(const std::string& text) {
     std::string out;
     out.reserve(text.size());
@@ -27,14 +35,6 @@ std::string percent_decoded(const std::string& text) {
     }
     return out;
 }
-
-bool is_inside(const fs::path& folder, const fs::path& path) {
-    const fs::path relative = fs::absolute(path).lexically_normal().lexically_relative(
-        fs::absolute(folder).lexically_normal());
-    return !relative.empty() && *relative.begin() != "..";
-}
-
-}  // namespace
 
 std::optional<fs::path> path_inside(const fs::path& folder, const std::string& reference) {
     const auto resolved = [&](std::string text) -> std::optional<fs::path> {

@@ -18,6 +18,9 @@ namespace relume::scene {
 [[nodiscard]] std::optional<std::filesystem::path> path_inside(
     const std::filesystem::path& folder, const std::string& reference);
 
+// `%` and two hexadecimal digits stand for a byte; anything else stands for itself.
+[[nodiscard]] std::string percent_decoded(const std::string& text);
+
 // Lets assimp open the scene and files inside its folder, none longer than the limit.
 class FolderIo : public Assimp::DefaultIOSystem {
   public:
