@@ -149,9 +149,6 @@ class Bake {
     }
 
   private:
-    static constexpr std::uint32_t kStatingRows = 128;
-    static constexpr std::uint32_t kChoosingRows = 64;
-
     void bake_shard(std::uint32_t shard,
                     const ShardBaker& shards,
                     const transport::TransportWriter& writer,

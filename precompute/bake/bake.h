@@ -10,6 +10,10 @@
 
 namespace relume::bake {
 
+// Of the two sketches of every bake.
+inline constexpr std::uint32_t kStatingRows = 128;
+inline constexpr std::uint32_t kChoosingRows = 64;
+
 struct BakeProgress {
     std::uint64_t pixels_done = 0;  // resumed shards included
     std::uint64_t pixels_resumed = 0;
@@ -43,7 +47,8 @@ struct BakeSummary {
 // continued: shards of a bake of the same inputs that was interrupted are kept. The same inputs
 // give the same bytes on any number of threads. Memory stays bounded by a shard's rows of paths
 // and the non-zero values of the blocks in work. Throws BakeError, BakeInterrupted,
-// scene::SceneError, transport::TransportError.
+// scene::SceneError, transport::TransportError,
+// files::FileError, program::UsageError.
 BakeSummary bake(const scene::Scene& scene,
                  const BakeParameters& parameters,
                  const std::filesystem::path& directory,

@@ -1,12 +1,16 @@
 #include "precompute/bake/commands.h"
 
+#include "base/program/usage.h"
+#include "base/text/near_files.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/error.h"
 #include "precompute/bake/image_file.h"
 #include "precompute/bake/inspect.h"
+#include "precompute/bake/output_directory.h"
 #include "precompute/bake/progress_line.h"
 #include "precompute/bake/relight.h"
 #include "precompute/bake/report.h"
+#include "precompute/bake/verdict.h"
 #include "precompute/scene/builtin.h"
 #include "precompute/scene/import.h"
 
@@ -51,7 +55,8 @@ std::vector<T> parse_list(const char* option,
         }
     }
     if (values.size() != count || at != end) {
-        throw BakeError(fmt::format("{} is '{}', expected {}", option, text, expected));
+        throw program::UsageError(
+            fmt::format("{} is '{}', expected {}", option, text, expected));
     }
     return values;
 }
@@ -69,7 +74,7 @@ std::optional<scene::CameraPlacement> camera_of(
         return base;
     }
     if (!base && (arguments.eye.empty() || arguments.look_at.empty())) {
-        throw BakeError("a camera given by hand needs both --eye and --look-at");
+        throw program::UsageError("a camera given by hand needs both --eye and --look-at");
     }
     scene::CameraPlacement camera = base.value_or(scene::CameraPlacement{});
     if (!arguments.eye.empty()) {
@@ -87,7 +92,8 @@ std::optional<scene::CameraPlacement> camera_of(
 
 scene::Scene scene_of(const Arguments& arguments) {
     if (arguments.scene.empty() == arguments.builtin.empty()) {
-        throw BakeError("expected a scene file or --builtin NAME; see relume-bake --help");
+        throw program::UsageError(
+            "expected a scene file or --builtin NAME; see relume-bake --help");
     }
     if (!arguments.builtin.empty()) {
         scene::Scene scene = scene::build_builtin_scene(arguments.builtin);
@@ -108,7 +114,7 @@ scene::Scene scene_of(const Arguments& arguments) {
 
 int run_bake(const Arguments& arguments) {
     if (arguments.output.empty()) {
-        throw BakeError("expected -o NAME.relume; see relume-bake --help");
+        throw program::UsageError("expected -o NAME.relume; see relume-bake --help");
     }
     BakeParameters parameters = arguments.parameters;
     if (!arguments.size.empty()) {
@@ -118,6 +124,11 @@ int run_bake(const Arguments& arguments) {
         parameters.height = size[1];
     }
     check_parameters(parameters);
+    const OutputDirectory output(transport_directory_from_option(arguments.output), parameters);
+    if (output.path() != std::filesystem::path(arguments.output)) {
+        std::fprintf(stderr, "relume-bake: -o %s is completed to %s\n",
+                     arguments.output.c_str(), output.path().c_str());
+    }
     const scene::Scene scene = scene_of(arguments);
     for (const std::string& unused : scene.report.unused) {
         std::fprintf(stderr, "relume-bake: not used: %s\n", unused.c_str());
@@ -133,23 +144,36 @@ int run_bake(const Arguments& arguments) {
         const BakeHooks hooks{
             .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
             .should_stop = [] { return stop_requested.load(); }};
-        summary = bake(scene, parameters, arguments.output, hooks);
+        summary = bake(scene, parameters, output.path(), hooks);
     }
-    write_report(arguments.output, report_from(scene, parameters, summary));
-    std::fputs(text_from_description(describe(arguments.output)).c_str(), stdout);
+    write_report(output.path(), report_from(scene, parameters, summary));
+    const nlohmann::json description = describe(output.path());
+    std::fputs(text_from_description(description).c_str(), stdout);
+    std::fputs(verdict(scene.report, description, output.path()).c_str(), stdout);
     return 0;
 }
 
+// Of info, verify and relight.
+std::filesystem::path existing_directory(const Arguments& arguments) {
+    if (!std::filesystem::exists(arguments.directory)) {
+        throw BakeError(fmt::format("{}: {}", arguments.directory,
+                                    text::text_from_missing_file(arguments.directory)));
+    }
+    return arguments.directory;
+}
+
 int run_info(const Arguments& arguments) {
-    const nlohmann::json description = describe(arguments.directory);
+    const nlohmann::json description = describe(existing_directory(arguments));
     const std::string text =
-        arguments.json ? description.dump(2) + "\n" : text_from_description(description);
+        arguments.json
+            ? description.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+            : text_from_description(description);
     std::fputs(text.c_str(), stdout);
     return 0;
 }
 
 int run_verify(const Arguments& arguments) {
-    const std::vector<std::string> faults = find_faults(arguments.directory);
+    const std::vector<std::string> faults = find_faults(existing_directory(arguments));
     for (const std::string& fault : faults) {
         std::fprintf(stderr, "relume-bake: %s\n", fault.c_str());
     }
@@ -161,7 +185,11 @@ int run_verify(const Arguments& arguments) {
 }
 
 int run_relight(const Arguments& arguments) {
-    const auto transport = transport::Transport::open(arguments.directory);
+    if (!arguments.image.ends_with(".exr")) {
+        throw program::UsageError(fmt::format(
+            "-o {}: found another ending, expected an EXR image, NAME.exr", arguments.image));
+    }
+    const auto transport = transport::Transport::open(existing_directory(arguments));
     const transport::Manifest& manifest = transport->manifest();
     const RelitImage relit =
         relight(*transport,

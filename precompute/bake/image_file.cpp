@@ -1,7 +1,9 @@
 #include "precompute/bake/image_file.h"
 
+#include "base/files/atomic_file.h"
 #include "precompute/bake/error.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
@@ -19,22 +21,20 @@ OIIO::ImageSpec spec_of(const FloatImage& image, OIIO::TypeDesc type) {
 
 void write(const std::filesystem::path& path,
            const FloatImage& image,
-           const OIIO::ImageSpec& spec) {
-    // The temporary name ends like the real one, for OpenImageIO chooses the format by it.
-    std::filesystem::path temporary = path;
-    temporary.replace_filename("." + path.filename().string());
-    const auto file = OIIO::ImageOutput::create(temporary.string());
-    if (!file || !file->open(temporary.string(), spec) ||
-        !file->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) || !file->close()) {
-        throw BakeError(
-            fmt::format("{}: {}", path.string(), file ? file->geterror() : OIIO::geterror()));
+           const OIIO::ImageSpec& spec,
+           const char* format) {
+    // Encoded in memory, for encoders do not all notice that a disk is full.
+    OIIO::Filesystem::IOVecOutput encoded;
+    OIIO::Filesystem::IOProxy* proxy = &encoded;
+    OIIO::ImageSpec into_memory = spec;
+    into_memory.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output || !output->open(path.string(), into_memory) ||
+        !output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) || !output->close()) {
+        throw BakeError(fmt::format("{}: {}", path.string(),
+                                    output ? output->geterror() : OIIO::geterror()));
     }
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) {
-        throw BakeError(
-            fmt::format("{}: cannot rename into place: {}", path.string(), error.message()));
-    }
+    files::write_file_atomically(path, {files::bytes_of(encoded.buffer())});
 }
 
 }  // namespace
@@ -42,13 +42,13 @@ void write(const std::filesystem::path& path,
 void write_exr(const std::filesystem::path& path, const FloatImage& image) {
     OIIO::ImageSpec spec = spec_of(image, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
-    write(path, image, spec);
+    write(path, image, spec, "openexr");
 }
 
 void write_png(const std::filesystem::path& path, const FloatImage& image) {
     OIIO::ImageSpec spec = spec_of(image, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    write(path, image, spec);
+    write(path, image, spec, "png");
 }
 
 FloatImage resized(const FloatImage& image, std::uint32_t width, std::uint32_t height) {

@@ -14,9 +14,9 @@ struct FloatImage {
     std::vector<float> values;   // height·width·channels
 };
 
-// Float EXR, zip. Throws BakeError.
+// Float EXR, zip. Throws BakeError, files::FileError.
 void write_exr(const std::filesystem::path& path, const FloatImage& image);
-// 8-bit PNG of display-referred values in [0, 1]. Throws BakeError.
+// 8-bit PNG of display-referred values in [0, 1]. Throws as write_exr does.
 void write_png(const std::filesystem::path& path, const FloatImage& image);
 [[nodiscard]] FloatImage resized(const FloatImage& image,
                                  std::uint32_t width,

@@ -1,25 +1,60 @@
 #include "precompute/bake/inspect.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
+#include "base/text/strict_json.h"
+#include "protocol/transport/column_summary.h"
 #include "protocol/transport/error.h"
 #include "protocol/transport/transport.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <cmath>
 
 namespace relume::bake {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+constexpr std::size_t kMaxReportBytes = std::size_t{16} << 20;
+
+// report.json, or null: it is there for people and may be gone or anything.
+nlohmann::json report_of(const std::filesystem::path& directory) {
+    try {
+        return text::parse_strict_json(
+            files::read_regular_file(directory / "report.json", kMaxReportBytes),
+            kMaxReportBytes);
+    } catch (const files::FileError&) {
+        return {};
+    } catch (const text::JsonError&) {
+        return {};
+    }
 }
 
-// report.json, or null: it is there for people and may be gone.
-nlohmann::json report_of(const std::filesystem::path& directory) {
-    return nlohmann::json::parse(text_of(directory / "report.json"), nullptr, false);
+// What is stated of the columns is what their values amount to.
+void check_energies(const transport::Transport& transport) {
+    std::vector<float> steps;
+    for (std::size_t column = 0; column < transport.column_count(); ++column) {
+        for (std::uint32_t channel = 0; channel < transport.channel_count(); ++channel) {
+            steps.push_back(transport.step(column, channel));
+        }
+    }
+    const transport::ColumnSummary summary = transport::summarise_columns(
+        transport.manifest(), transport.shards(), steps, transport.tint());
+    // Another writer may have summed in another order.
+    constexpr float kTolerance = 1e-3F;
+    for (std::size_t column = 0; column < transport.column_count(); ++column) {
+        for (std::uint32_t colour = 0; colour < transport::kColours; ++colour) {
+            const float stated = transport.energy(column, colour);
+            const float real = summary.energies[column * transport::kColours + colour];
+            if (!(std::abs(stated - real) <= kTolerance * std::max(stated, real))) {
+                throw transport::TransportError(fmt::format(
+                    "{}: energy of column {} colour {}: found {}, expected {} by its values",
+                    (transport.directory() / transport.manifest().columns.file).string(),
+                    column, colour, stated, real));
+            }
+        }
+    }
 }
 
 template <typename Check>
@@ -41,47 +76,8 @@ std::string megabytes(double bytes) {
     return fmt::format("{:.1f} MB", bytes / 1e6);
 }
 
-}  // namespace
-
-nlohmann::json describe(const std::filesystem::path& directory) {
-    const auto transport = transport::Transport::open(directory);
-    const transport::Manifest& manifest = transport->manifest();
-    nlohmann::json description{
-        {"directory", directory.string()},
-        {"generator", manifest.generator},
-        {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
-        {"basis", transport::json_from(manifest.light_basis)},
-        {"columns", transport->column_count()},
-        {"colour",
-         {{"channels", manifest.colour.channels}, {"matrix", manifest.colour.matrix}}},
-        {"shards", manifest.shards.size()},
-        {"bytes", transport->total_bytes()},
-        {"bake", manifest.bake},
-        {"measured", manifest.measured}};
-    std::uint64_t nonzeros = 0;
-    for (const auto& encoding : manifest.measured.value("cells", nlohmann::json::object())) {
-        nonzeros += encoding.value("nonzeros", std::uint64_t{0});
-    }
-    description["nonzeros"] = nonzeros;
-    const nlohmann::json report = report_of(directory);
-    description["report"] = report.is_discarded() ? nlohmann::json() : report;
-    return description;
-}
-
-std::string text_from_description(const nlohmann::json& d) {
-    const auto& image = d.at("image");
-    const auto bytes = d.at("bytes").get<double>();
-    const double pixels = image.at("width").get<double>() * image.at("height").get<double>();
-    std::string text = fmt::format(
-        "{}\n  {}×{} pixels, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
-        "  {}, {:.0f} bytes and {:.0f} non-zeros per pixel\n",
-        d.at("directory").get<std::string>(), image.at("width").get<int>(),
-        image.at("height").get<int>(), d.at("colour").at("channels").get<int>(),
-        d.at("shards").get<int>(), megabytes(bytes), bytes / pixels,
-        d.at("nonzeros").get<double>() / pixels,
-        fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
-        fmt::arg("basis", basis_text(d.at("basis"))));
-    const auto& measured = d.at("measured");
+std::string lines_from_measured(const nlohmann::json& measured) {
+    std::string text;
     if (measured.contains("cells")) {
         for (const auto& [name, cells] : measured.at("cells").items()) {
             text += fmt::format("  {:9} {:>12} cells {:>13} non-zeros {:>12}\n", name,
@@ -101,31 +97,88 @@ std::string text_from_description(const nlohmann::json& d) {
         text += fmt::format("  what one channel would lose: L2 {:.2e}\n",
                             measured.at("chroma_residual").get<double>());
     }
-    if (const auto& report = d.at("report"); report.is_object() && report.contains("seconds")) {
-        text +=
-            fmt::format("  baked in {:.1f} s: {:.1f} Mrays/s of visibility, peak memory {}\n",
-                        report.at("seconds").at("total").get<double>(),
-                        report.at("rays_per_second").at("visibility").get<double>() / 1e6,
-                        megabytes(report.at("peak_memory_bytes").get<double>()));
-    }
     return text;
+}
+
+// Other writers may state other things there, which are not told.
+std::string text_from_measured(const nlohmann::json& measured) {
+    try {
+        return lines_from_measured(measured);
+    } catch (const nlohmann::json::exception&) {
+        return "  what was measured is not stated as relume-bake states it\n";
+    }
+}
+
+// Of a report.json as bakes write it; nothing of any other.
+std::string text_from_report(const nlohmann::json& report) {
+    try {
+        return fmt::format(
+            "  baked in {:.1f} s: {:.1f} Mrays/s of visibility, peak memory {}\n",
+            report.at("seconds").at("total").get<double>(),
+            report.at("rays_per_second").at("visibility").get<double>() / 1e6,
+            megabytes(report.at("peak_memory_bytes").get<double>()));
+    } catch (const nlohmann::json::exception&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+nlohmann::json describe(const std::filesystem::path& directory) {
+    const auto transport = transport::Transport::open(directory);
+    const transport::Manifest& manifest = transport->manifest();
+    nlohmann::json description{
+        {"directory", directory.string()},
+        {"generator", manifest.generator},
+        {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
+        {"basis", transport::json_from(manifest.light_basis)},
+        {"columns", transport->column_count()},
+        {"colour",
+         {{"channels", manifest.colour.channels}, {"matrix", manifest.colour.matrix}}},
+        {"shards", manifest.shards.size()},
+        {"bytes", transport->total_bytes()},
+        {"bake", manifest.bake},
+        {"measured", manifest.measured}};
+    std::uint64_t nonzeros = 0;
+    for (const transport::ShardReader& shard : transport->shards()) {
+        for (const std::uint64_t count : shard.statistics().nonzeros) {
+            nonzeros += count;
+        }
+    }
+    description["nonzeros"] = nonzeros;
+    const nlohmann::json report = report_of(directory);
+    description["report"] = report;
+    return description;
+}
+
+std::string text_from_description(const nlohmann::json& d) {
+    const auto& image = d.at("image");
+    const auto bytes = d.at("bytes").get<double>();
+    const double pixels = image.at("width").get<double>() * image.at("height").get<double>();
+    std::string text = fmt::format(
+        "{}\n  {}×{} pixels, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
+        "  {}, {:.0f} bytes and {:.0f} non-zeros per pixel\n",
+        d.at("directory").get<std::string>(), image.at("width").get<int>(),
+        image.at("height").get<int>(), d.at("colour").at("channels").get<int>(),
+        d.at("shards").get<int>(), megabytes(bytes), bytes / pixels,
+        d.at("nonzeros").get<double>() / pixels,
+        fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
+        fmt::arg("basis", basis_text(d.at("basis"))));
+    text += text_from_measured(d.at("measured"));
+    return text + text_from_report(d.at("report"));
 }
 
 std::vector<std::string> find_faults(const std::filesystem::path& directory) {
     std::vector<std::string> faults;
     collect(faults, [&] {
-        const std::filesystem::path path = directory / "manifest.json";
-        const transport::MappedFile file(path);
-        const auto bytes = file.bytes();
-        const auto manifest = transport::manifest_from_text(
-            {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+        const auto manifest = transport::read_manifest(directory / "manifest.json");
         for (const transport::ShardRecord& shard : manifest.shards) {
             collect(faults,
                     [&] { const transport::ShardReader reader(directory / shard.file); });
         }
     });
     if (faults.empty()) {
-        collect(faults, [&] { static_cast<void>(transport::Transport::open(directory)); });
+        collect(faults, [&] { check_energies(*transport::Transport::open(directory)); });
     }
     return faults;
 }

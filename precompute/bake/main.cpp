@@ -1,4 +1,5 @@
 // relume-bake: scene → transport directory; and what people ask about one.
+#include "base/program/program.h"
 #include "precompute/bake/command_line.h"
 #include "precompute/bake/commands.h"
 #include "precompute/bake/error.h"
@@ -6,23 +7,20 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <exception>
 
 int main(int argc, char** argv) {
     namespace bake = relume::bake;
     CLI::App app("Bakes a scene's light transport for Relume.", "relume-bake");
     bake::Arguments arguments;
     bake::add_arguments(app, arguments);
-    CLI11_PARSE(app, argc, argv);
-    try {
-        return bake::run_command(app, arguments);
-    } catch (const bake::BakeInterrupted& stopped) {
-        std::fprintf(stderr, "relume-bake: %s; the same command goes on from here\n",
-                     stopped.what());
-        constexpr int kInterrupted = 130;
-        return kInterrupted;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "relume-bake: %s\n", error.what());
-        return 1;
-    }
+    return relume::program::run_program(app, argc, argv, [&] {
+        try {
+            return bake::run_command(app, arguments);
+        } catch (const bake::BakeInterrupted& stopped) {
+            std::fprintf(stderr, "relume-bake: %s; the same command goes on from here\n",
+                         stopped.what());
+            constexpr int kInterrupted = 130;  // as shells say it of a program ended by Ctrl-C
+            return kInterrupted;
+        }
+    });
 }

@@ -1,6 +1,6 @@
 #include "precompute/bake/parameters.h"
 
-#include "precompute/bake/error.h"
+#include "base/program/usage.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/manifest.h"
@@ -16,7 +16,8 @@ namespace {
 template <typename T>
 void require_range(std::string_view name, T value, T low, T high) {
     if (!(value >= low && value <= high)) {
-        throw BakeError(fmt::format("{} is {}, expected {} to {}", name, value, low, high));
+        throw program::UsageError(
+            fmt::format("{} is {}, expected {} to {}", name, value, low, high));
     }
 }
 
@@ -27,7 +28,7 @@ void check_parameters(const BakeParameters& p) {
     require_range("image width", p.width, 1U, transport::kMaxImageSide);
     require_range("image height", p.height, 1U, transport::kMaxImageSide);
     if (!basis::is_face_resolution(p.face_resolution)) {
-        throw BakeError(fmt::format(
+        throw program::UsageError(fmt::format(
             "light resolution is {}, expected a power of two from {} to {}", p.face_resolution,
             basis::kMinFaceResolution, basis::kMaxFaceResolution));
     }

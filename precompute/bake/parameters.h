@@ -26,7 +26,7 @@ struct BakeParameters {
     std::uint64_t seed = 0;
 };
 
-// Throws BakeError naming the first parameter out of range.
+// Throws program::UsageError naming the first parameter out of range.
 void check_parameters(const BakeParameters& parameters);
 
 // What the transport's columns stand for. The parameters have been checked.

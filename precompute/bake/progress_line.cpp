@@ -17,6 +17,22 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
+std::string progress_text(const BakeProgress& progress, double seconds) {
+    const double done =
+        static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
+    const auto baked = static_cast<double>(progress.pixels_done - progress.pixels_resumed);
+    const auto left = static_cast<double>(progress.pixels - progress.pixels_done);
+    const double rate = seconds > 0 ? baked / seconds : 0;
+    const double rays = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
+    std::string text = fmt::format("{:3.0f}%  {:.0f} pixels/s  {:.1f} Mrays/s  {} gone",
+                                   100 * done, rate, rays / 1e6, clock_text(seconds));
+    constexpr double kTellingPart = 0.1;
+    if (rate > 0 && left > 0 && baked >= kTellingPart * (baked + left)) {
+        text += fmt::format("  {} left", clock_text(left / rate));
+    }
+    return text;
+}
+
 ProgressLine::ProgressLine(std::FILE* stream)
     : stream_(stream), terminal_(::isatty(::fileno(stream)) == 1) {}
 
@@ -36,13 +52,7 @@ void ProgressLine::update(const BakeProgress& progress) {
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double done =
         static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
-    const auto baked = static_cast<double>(progress.pixels_done - progress.pixels_resumed);
-    const auto left = static_cast<double>(progress.pixels - progress.pixels_done);
-    const double rate = seconds > 0 ? baked / seconds : 0;
-    const double rays = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
-    const std::string text = fmt::format(
-        "{:3.0f}%  {:.0f} pixels/s  {:.1f} Mrays/s  {} gone  {} left", 100 * done, rate,
-        rays / 1e6, clock_text(seconds), rate > 0 ? clock_text(left / rate) : "?");
+    const std::string text = progress_text(progress, seconds);
     if (terminal_) {
         const auto cells = static_cast<std::size_t>(done * static_cast<double>(kBarCells));
         std::fprintf(stream_, "\r[%s%s] %s\x1b[K", std::string(cells, '#').c_str(),

@@ -5,8 +5,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
 
 namespace relume::bake {
+
+// "42%  310 pixels/s  1.2 Mrays/s  1:04 gone  1:29 left" after so many seconds. The time left
+// is named once a tenth of what had to be baked is baked, for before that it would be a guess.
+[[nodiscard]] std::string progress_text(const BakeProgress& progress, double seconds);
 
 class ProgressLine {
   public:

@@ -1,5 +1,6 @@
 #include "precompute/bake/relight.h"
 
+#include "base/files/regular_file.h"
 #include "precompute/bake/error.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
@@ -106,6 +107,7 @@ RelitImage relight(const transport::Transport& transport, const CubemapLight& li
 
 CubemapLight read_cubemap_strip(const std::filesystem::path& path,
                                 std::uint32_t face_resolution) {
+    files::require_regular_file(path);
     const auto file = OIIO::ImageInput::open(path.string());
     if (!file) {
         throw BakeError(fmt::format("{}: {}", path.string(), OIIO::geterror()));

@@ -1,6 +1,6 @@
 #include "precompute/bake/report.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/info.h>
@@ -44,8 +44,9 @@ nlohmann::json report_from(const scene::Scene& scene,
 }
 
 void write_report(const std::filesystem::path& directory, const nlohmann::json& report) {
-    const std::string text = report.dump(2) + "\n";
-    transport::write_file_atomically(directory / "report.json", {transport::bytes_of(text)});
+    const std::string text =
+        report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    files::write_file_atomically(directory / "report.json", {files::bytes_of(text)});
 }
 
 }  // namespace relume::bake

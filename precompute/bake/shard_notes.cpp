@@ -1,14 +1,15 @@
 #include "precompute/bake/shard_notes.h"
 
+#include "base/files/atomic_file.h"
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
 #include "precompute/bake/error.h"
-#include "protocol/transport/atomic_file.h"
 #include "protocol/transport/checksum.h"
 
 #include <fmt/format.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <string>
 #include <type_traits>
 
 namespace relume::bake {
@@ -24,8 +25,8 @@ struct NotesHeader {
 
 std::vector<std::byte> payload_of(const ShardNotes& notes) {
     std::vector<std::byte> payload;
-    for (const transport::Bytes part :
-         {transport::bytes_of(notes.tint), transport::bytes_of(notes.errors)}) {
+    for (const files::Bytes part :
+         {files::bytes_of(notes.tint), files::bytes_of(notes.errors)}) {
         payload.insert(payload.end(), part.begin(), part.end());
     }
     return payload;
@@ -53,8 +54,7 @@ void ShardNotesFolder::write(std::uint32_t shard, const ShardNotes& notes) const
     const NotesHeader header{.fingerprint = fingerprint_,
                              .block_count = notes.errors.size(),
                              .checksum = transport::checksum(payload)};
-    transport::write_file_atomically(path(shard),
-                                     {std::as_bytes(std::span(&header, 1)), payload});
+    files::write_file_atomically(path(shard), {std::as_bytes(std::span(&header, 1)), payload});
 }
 
 std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
@@ -64,18 +64,25 @@ std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
     notes.errors.resize(block_count);
     const std::size_t expected = sizeof(NotesHeader) + notes.tint.size() * sizeof(float) +
                                  notes.errors.size() * sizeof(BlockErrors);
-    std::error_code error;
-    if (std::filesystem::file_size(path(shard), error) != expected || error) {
+    NotesHeader header;
+    std::string bytes;
+    try {
+        bytes = files::read_regular_file(path(shard), expected);
+    } catch (const files::FileError&) {
         return std::nullopt;
     }
-    std::ifstream file(path(shard), std::ios::binary);
-    NotesHeader header;
-    file.read(reinterpret_cast<char*>(&header), sizeof(header));
-    file.read(reinterpret_cast<char*>(notes.tint.data()),
-              static_cast<std::streamsize>(notes.tint.size() * sizeof(float)));
-    file.read(reinterpret_cast<char*>(notes.errors.data()),
-              static_cast<std::streamsize>(notes.errors.size() * sizeof(BlockErrors)));
-    if (!file || header.fingerprint != fingerprint_ || header.block_count != block_count ||
+    if (bytes.size() != expected) {
+        return std::nullopt;
+    }
+    const char* at = bytes.data();
+    const auto take = [&at](void* target, std::size_t size) {
+        std::memcpy(target, at, size);
+        at += size;
+    };
+    take(&header, sizeof(header));
+    take(notes.tint.data(), notes.tint.size() * sizeof(float));
+    take(notes.errors.data(), notes.errors.size() * sizeof(BlockErrors));
+    if (header.fingerprint != fingerprint_ || header.block_count != block_count ||
         header.checksum != transport::checksum(payload_of(notes))) {
         return std::nullopt;
     }

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::uint32_t kThumbnailSide = 384;
 
-// A soft key light over the viewer's left shoulder, under a pale sky.
+// What a stranger judges the bake by: a soft key light over the viewer's left shoulder, under a
+// pale sky.
 CubemapLight thumbnail_light(std::uint32_t n, const transport::CameraRecord& camera) {
     const Imath::V3f key =
         (camera.up * 0.9F - camera.right * 0.7F - camera.forward * 0.5F).normalized();
@@ -49,7 +50,7 @@ float displayed(float x) {
     return film <= 0.0031308F ? 12.92F * film : 1.055F * std::pow(film, 1 / 2.4F) - 0.055F;
 }
 
-void write_thumbnail(const std::filesystem::path& directory, const ViewImages& view) {
+void write_pictures(const std::filesystem::path& directory, const ViewImages& view) {
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
     const RelitImage relit = relight(
@@ -69,11 +70,14 @@ void write_thumbnail(const std::filesystem::path& directory, const ViewImages& v
             1U, static_cast<std::uint32_t>(std::lround(scale * static_cast<float>(side))));
     };
     FloatImage image{view.width, view.height, 3, std::move(pixels)};
-    image = resized(image, scaled(view.width), scaled(view.height));
-    for (float& value : image.values) {
-        value = displayed(std::max(value, 0.0F));
+    FloatImage small = resized(image, scaled(view.width), scaled(view.height));
+    for (FloatImage* shown : {&image, &small}) {
+        for (float& value : shown->values) {
+            value = displayed(std::max(value, 0.0F));
+        }
     }
-    write_png(directory / "view" / "thumbnail.png", image);
+    write_png(directory / "view" / "picture.png", image);
+    write_png(directory / "view" / "thumbnail.png", small);
 }
 
 }  // namespace
@@ -113,7 +117,7 @@ void write_view_files(const std::filesystem::path& directory, const ViewImages& 
     }
     write_exr(directory / "view" / "albedo.exr", {view.width, view.height, 3, albedo});
     write_exr(directory / "view" / "depth.exr", {view.width, view.height, 1, view.depth});
-    write_thumbnail(directory, view);
+    write_pictures(directory, view);
 }
 
 }  // namespace relume::bake

@@ -1,4 +1,4 @@
-// What people and clients look at beside the transport: albedo, depth, a thumbnail.
+// What people and clients look at beside the transport: albedo, depth, a picture, a thumbnail.
 #pragma once
 
 #include "precompute/bake/parameters.h"
@@ -26,8 +26,9 @@ struct ViewImages {
                                      const scene::Camera& camera,
                                      const BakeParameters& parameters);
 
-// Writes view/albedo.exr, view/depth.exr and view/thumbnail.png, which is relit from the
-// finished transport in `directory`. Throws BakeError.
+// Writes view/albedo.exr, view/depth.exr, and view/picture.png with its small copy
+// view/thumbnail.png, relit from the finished transport in `directory` under a light of our
+// own. Throws BakeError, files::FileError.
 void write_view_files(const std::filesystem::path& directory, const ViewImages& view);
 
 }  // namespace relume::bake

@@ -1,5 +1,6 @@
 #include "precompute/scene/import.h"
 
+#include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/gltf/import_gltf.h"
 #include "precompute/scene/import_assimp.h"
@@ -37,8 +38,11 @@ FileFormat format_of(const fs::path& path) {
 void check_file(const fs::path& path, std::uint64_t max_bytes) {
     std::error_code error;
     if (!fs::is_regular_file(path, error))
-        throw SceneError(SceneFault::missing_file,
-                         fmt::format("scene '{}': no such file", path.string()));
+        throw SceneError(
+            SceneFault::missing_file,
+            fmt::format("scene '{}': {}", path.string(),
+                        fs::exists(path, error) ? "expected a file, found something else"
+                                                : text::text_from_missing_file(path)));
     const auto bytes = fs::file_size(path, error);
     if (error || bytes > max_bytes)
         throw SceneError(SceneFault::too_large,

@@ -1,5 +1,8 @@
 #include "protocol/transport/manifest.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
+#include "base/text/strict_json.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 
@@ -7,12 +10,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace relume::transport {
 namespace {
 
 using nlohmann::json;
 using Kind = basis::LightBasis::Kind;
+
+// Whether a value is a number that single precision holds.
+bool is_single(const json& value) {
+    return value.is_number() &&
+           std::abs(value.get<double>()) <= std::numeric_limits<float>::max();
+}
 
 // Reads members of one object, naming the place in every complaint.
 class ObjectReader {
@@ -34,12 +44,20 @@ class ObjectReader {
     [[nodiscard]] ObjectReader object(const char* key) const {
         return {member(key), place_ + "." + key};
     }
-    [[nodiscard]] std::string text(const char* key) const {
+    [[nodiscard]] std::string string(const char* key) const {
         const json& value = member(key);
         if (!value.is_string()) {
             fail(key, value.type_name(), "a string");
         }
         return value.get<std::string>();
+    }
+    // An object for people to read: its content is their business.
+    [[nodiscard]] json notes(const char* key) const {
+        const json& value = member(key);
+        if (!value.is_object()) {
+            fail(key, value.type_name(), "an object");
+        }
+        return value;
     }
     [[nodiscard]] std::uint64_t integer(const char* key,
                                         std::uint64_t low,
@@ -47,7 +65,7 @@ class ObjectReader {
         const json& value = member(key);
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() < low ||
             value.get<std::uint64_t>() > high) {
-            fail(key, value.dump(), fmt::format("an integer from {} to {}", low, high));
+            fail(key, text::quote(value), fmt::format("an integer from {} to {}", low, high));
         }
         return value.get<std::uint64_t>();
     }
@@ -57,9 +75,9 @@ class ObjectReader {
         return static_cast<std::uint32_t>(integer(key, low, high));
     }
     [[nodiscard]] std::uint64_t digits(const char* key) const {
-        const auto value = checksum_from_text(text(key));
+        const auto value = checksum_from_text(string(key));
         if (!value) {
-            fail(key, text(key), "16 hexadecimal digits");
+            fail(key, text::quote(string(key)), "16 hexadecimal digits");
         }
         return *value;
     }
@@ -67,14 +85,14 @@ class ObjectReader {
     [[nodiscard]] Imath::V3f vector(const char* key) const {
         const json& value = member(key);
         if (!value.is_array() || value.size() != 3) {
-            fail(key, value.dump(), "three numbers");
+            fail(key, text::quote(value), "three numbers");
         }
         return {number_from(value[0], key), number_from(value[1], key),
                 number_from(value[2], key)};
     }
     void expect_text(const char* key, const char* expected) const {
-        if (text(key) != expected) {
-            fail(key, text(key), expected);
+        if (string(key) != expected) {
+            fail(key, text::quote(string(key)), expected);
         }
     }
     void expect_integer(const char* key, std::uint64_t expected) const {
@@ -89,8 +107,8 @@ class ObjectReader {
 
   private:
     [[nodiscard]] float number_from(const json& value, const char* key) const {
-        if (!value.is_number() || !std::isfinite(value.get<float>())) {
-            fail(key, value.dump(), "a finite number");
+        if (!is_single(value)) {
+            fail(key, text::quote(value), "a finite number of single precision");
         }
         return value.get<float>();
     }
@@ -99,17 +117,29 @@ class ObjectReader {
     std::string place_;
 };
 
+// A name that means one file within the directory to every program: its parts are neither empty
+// nor "." nor "..", and no byte of it is a control character.
 bool is_safe_relative(const std::string& name) {
+    constexpr std::size_t kLongest = 255;
+    const auto is_control = [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    };
+    if (name.empty() || name.size() > kLongest || name.front() == '/' || name.back() == '/' ||
+        name.find("//") != std::string::npos ||
+        std::any_of(name.begin(), name.end(), is_control)) {
+        return false;
+    }
     const std::filesystem::path path(name);
-    return !name.empty() && path.is_relative() &&
-           std::none_of(path.begin(), path.end(),
-                        [](const auto& part) { return part == ".."; });
+    return std::none_of(path.begin(), path.end(),
+                        [](const auto& part) { return part == ".." || part == "."; });
 }
 
 std::string file_name(const ObjectReader& record) {
-    std::string name = record.text("file");
+    std::string name = record.string("file");
     if (!is_safe_relative(name)) {
-        record.fail("file", name, "a relative path without '..'");
+        record.fail("file", text::quote(name),
+                    "a relative path of up to 255 bytes, without '..', empty parts or control "
+                    "characters");
     }
     return name;
 }
@@ -145,16 +175,15 @@ ColourModel colour_model(const ObjectReader& object) {
         object.fail("channels", "2", "1 or 3");
     }
     const json& matrix = object.member("matrix");
-    const bool shaped =
-        matrix.is_array() && matrix.size() == kColours &&
-        std::all_of(matrix.begin(), matrix.end(), [&](const json& row) {
-            return row.is_array() && row.size() == colour.channels &&
-                   std::all_of(row.begin(), row.end(), [](const json& value) {
-                       return value.is_number() && std::isfinite(value.get<float>());
-                   });
-        });
+    const bool shaped = matrix.is_array() && matrix.size() == kColours &&
+                        std::all_of(matrix.begin(), matrix.end(), [&](const json& row) {
+                            return row.is_array() && row.size() == colour.channels &&
+                                   std::all_of(row.begin(), row.end(), [](const json& value) {
+                                       return is_single(value);
+                                   });
+                        });
     if (!shaped) {
-        object.fail("matrix", matrix.dump(),
+        object.fail("matrix", text::quote(matrix),
                     fmt::format("3 rows of {} numbers", colour.channels));
     }
     for (std::size_t c = 0; c < kColours; ++c) {
@@ -166,7 +195,7 @@ ColourModel colour_model(const ObjectReader& object) {
 }
 
 basis::LightBasis light_basis(const ObjectReader& object) {
-    const std::string name = object.text("name");
+    const std::string name = object.string("name");
     const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
                                              basis::kMaxFaceResolution);
     if (!basis::is_face_resolution(n)) {
@@ -179,7 +208,7 @@ basis::LightBasis light_basis(const ObjectReader& object) {
         return basis::LightBasis::spherical_harmonics(
             object.integer32("order", 1, basis::kMaxShOrder), n);
     }
-    object.fail("name", name, "haar or sh");
+    object.fail("name", text::quote(name), "haar or sh");
 }
 
 json json_from(const CameraRecord& camera) {
@@ -191,13 +220,43 @@ json json_from(const CameraRecord& camera) {
             {"tan_half_height", camera.tan_half_height}};
 }
 
+// Axes of single precision; what rounding leaves of right angles and unit lengths is far below.
+constexpr float kAxisTolerance = 1e-3F;
+
+void require_orthonormal(const ObjectReader& object, const CameraRecord& camera) {
+    const std::array<std::pair<const char*, Imath::V3f>, 3> axes{
+        {{"right", camera.right}, {"up", camera.up}, {"forward", camera.forward}}};
+    for (const auto& [name, axis] : axes) {
+        if (!(std::abs(axis.length() - 1) <= kAxisTolerance)) {
+            object.fail(name, fmt::format("a vector of length {}", axis.length()),
+                        "a unit vector");
+        }
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const auto& [name, axis] = axes[i];
+        const auto& [other_name, other] = axes[(i + 1) % axes.size()];
+        if (!(std::abs(axis.dot(other)) <= kAxisTolerance)) {
+            object.fail(name, fmt::format("{}·{} = {}", name, other_name, axis.dot(other)),
+                        "axes at right angles");
+        }
+    }
+    for (const auto& [name, tangent] : {std::pair{"tan_half_width", camera.tan_half_width},
+                                        std::pair{"tan_half_height", camera.tan_half_height}}) {
+        if (!(tangent > 0)) {
+            object.fail(name, fmt::format("{}", tangent), "a positive number");
+        }
+    }
+}
+
 CameraRecord camera_record(const ObjectReader& object) {
-    return {.eye = object.vector("eye"),
-            .right = object.vector("right"),
-            .up = object.vector("up"),
-            .forward = object.vector("forward"),
-            .tan_half_width = object.number("tan_half_width"),
-            .tan_half_height = object.number("tan_half_height")};
+    const CameraRecord camera{.eye = object.vector("eye"),
+                              .right = object.vector("right"),
+                              .up = object.vector("up"),
+                              .forward = object.vector("forward"),
+                              .tan_half_width = object.number("tan_half_width"),
+                              .tan_half_height = object.number("tan_half_height")};
+    require_orthonormal(object, camera);
+    return camera;
 }
 
 json json_from(const ShardRecord& shard) {
@@ -304,24 +363,28 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
     // The object's text without its opening brace follows the checksum line.
-    const std::string body = object.dump(1).substr(1) + "\n";
+    const std::string body =
+        object.dump(1, ' ', false, json::error_handler_t::replace).substr(1) + "\n";
     return fmt::format("{{\"xxh3\":\"{}\",\n{}",
                        text_from_checksum(checksum(std::as_bytes(std::span(body)))), body);
 }
 
-Manifest manifest_from_text(std::string_view text, std::string_view file) {
-    check_first_line(text, file);
-    const json parsed = json::parse(text, nullptr, /*allow_exceptions=*/false);
-    if (parsed.is_discarded()) {
-        throw TransportError(fmt::format("{}: not JSON", file));
-    }
+Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
+    check_first_line(json_text, file);
+    const json parsed = [&] {
+        try {
+            return text::parse_strict_json(json_text, kMaxManifestBytes);
+        } catch (const text::JsonError& error) {
+            throw TransportError(fmt::format("{}: {}", file, error.what()));
+        }
+    }();
     const ObjectReader top(parsed, std::string(file) + ": manifest");
     top.expect_text("format", "relume-transport");
     top.expect_integer("version", kFormatVersion);
     top.expect_text("kind", "image");
 
     Manifest manifest;
-    manifest.generator = top.text("generator");
+    manifest.generator = top.string("generator");
     manifest.fingerprint = top.digits("fingerprint");
     manifest.image = {.width = top.object("image").integer32("width", 1, kMaxImageSide),
                       .height = top.object("image").integer32("height", 1, kMaxImageSide)};
@@ -337,9 +400,18 @@ Manifest manifest_from_text(std::string_view text, std::string_view file) {
     manifest.sketch = file_record(files.object("sketch"));
     manifest.shards = shard_records(top, manifest.block_count(), file);
     manifest.camera = camera_record(top.object("camera"));
-    manifest.bake = top.member("bake");
-    manifest.measured = top.member("measured");
+    manifest.bake = top.notes("bake");
+    manifest.measured = top.notes("measured");
     return manifest;
+}
+
+Manifest read_manifest(const std::filesystem::path& path) {
+    try {
+        return manifest_from_text(files::read_regular_file(path, kMaxManifestBytes),
+                                  path.string());
+    } catch (const files::FileError& error) {
+        throw TransportError(error.what());
+    }
 }
 
 }  // namespace relume::transport

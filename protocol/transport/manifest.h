@@ -80,9 +80,14 @@ struct Manifest {
     [[nodiscard]] std::uint32_t block_count() const { return image.block_count(); }
 };
 
+// Longest manifest read: 16384² pixels have 16384 shards of about 170 bytes of text each.
+inline constexpr std::size_t kMaxManifestBytes = std::size_t{8} << 20;
+
 // The file's text, checksum line first. The same manifest gives the same bytes.
 [[nodiscard]] std::string text_from_manifest(const Manifest& manifest);
 // Throws TransportError naming `file` and the key, what was found and what was expected.
-[[nodiscard]] Manifest manifest_from_text(std::string_view text, std::string_view file);
+[[nodiscard]] Manifest manifest_from_text(std::string_view json_text, std::string_view file);
+// As manifest_from_text, of a file.
+[[nodiscard]] Manifest read_manifest(const std::filesystem::path& path);
 
 }  // namespace relume::transport

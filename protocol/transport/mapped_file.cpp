@@ -1,12 +1,12 @@
 #include "protocol/transport/mapped_file.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
 #include "protocol/transport/error.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -23,10 +23,7 @@ namespace {
 std::span<const std::byte> map_descriptor(const std::filesystem::path& path, int descriptor) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) {
-        fail(path, "stat");
-    }
-    if (!S_ISREG(status.st_mode)) {
-        throw TransportError(fmt::format("{}: expected a regular file", path.string()));
+        fail(path, "look at");
     }
     const auto size = static_cast<std::size_t>(status.st_size);
     if (size == 0) {
@@ -43,17 +40,12 @@ std::span<const std::byte> map_descriptor(const std::filesystem::path& path, int
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) {
-        fail(path, "open");
-    }
     try {
-        bytes_ = map_descriptor(path, descriptor);
-    } catch (...) {
-        ::close(descriptor);
-        throw;
+        const files::Descriptor file = files::open_regular_file(path);
+        bytes_ = map_descriptor(path, file.get());
+    } catch (const files::FileError& error) {
+        throw TransportError(error.what());
     }
-    ::close(descriptor);
 }
 
 MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}

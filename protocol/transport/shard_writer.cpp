@@ -1,6 +1,6 @@
 #include "protocol/transport/shard_writer.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 
@@ -77,15 +77,16 @@ ShardHeader write_shard(const std::filesystem::path& path,
     header.channels = identity.channels;
     header.fingerprint = identity.fingerprint;
     header.index_bytes = index.size() * sizeof(std::uint32_t);
-    header.index_checksum = checksum(bytes_of(index));
+    header.index_checksum = checksum(files::bytes_of(index));
     header.data_bytes = data.size();
-    header.data_checksum = checksum(bytes_of(data));
+    header.data_checksum = checksum(files::bytes_of(data));
     header.header_checksum = header.computed_checksum();
     const std::vector<std::byte> padding(header.data_offset() - kShardHeaderBytes -
                                          header.index_bytes);
     constexpr std::array<std::byte, kShardTailBytes> tail{};
-    write_file_atomically(path, {std::as_bytes(std::span(&header, 1)), bytes_of(index), padding,
-                                 bytes_of(data), tail});
+    files::write_file_atomically(
+        path, {std::as_bytes(std::span(&header, 1)), files::bytes_of(index), padding,
+               files::bytes_of(data), tail});
     return header;
 }
 

@@ -7,25 +7,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace relume::transport {
 namespace {
-
-// Longest manifest read: 16384² pixels have 16384 shards of about 150 bytes of text each.
-constexpr std::size_t kMaxManifestBytes = std::size_t{64} << 20;
-
-Manifest read_manifest(const std::filesystem::path& path) {
-    const MappedFile file(path);
-    const auto bytes = file.bytes();
-    if (bytes.size() > kMaxManifestBytes) {
-        throw TransportError(fmt::format("{}: {} bytes, expected at most {}", path.string(),
-                                         bytes.size(), kMaxManifestBytes));
-    }
-    return manifest_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                              path.string());
-}
 
 // Takes typed arrays off the front of a table.
 class TableReader {
@@ -44,13 +30,17 @@ class TableReader {
         bytes_ = bytes_.subspan(size);
         return values;
     }
-    // As take, and all values are finite and at least `low`.
-    std::span<const float> take_floats(std::size_t count, float low, const char* what) {
+    // As take, and all values lie in [0, high].
+    std::span<const float> take_floats(std::size_t count,
+                                       const char* what,
+                                       float high = std::numeric_limits<float>::max()) {
         const auto values = take<float>(count);
         for (const float value : values) {
-            if (!std::isfinite(value) || value < low) {
-                throw TransportError(fmt::format("{}: {}: found {}, expected a number from {}",
-                                                 name_, what, value, low));
+            if (!(value >= 0 && value <= high)) {
+                throw TransportError(
+                    fmt::format("{}: {}: found {}, expected {}", name_, what, value,
+                                high == 1 ? "a number from 0 to 1"
+                                          : "a finite number that is not negative"));
             }
         }
         return values;
@@ -114,6 +104,7 @@ Transport::Transport(const std::filesystem::path& directory)
     : directory_(directory), manifest_(read_manifest(directory / "manifest.json")) {
     open_tables();
     open_shards();
+    check_columns();
 }
 
 void Transport::open_tables() {
@@ -127,19 +118,19 @@ void Transport::open_tables() {
         return TableReader(tables_[table].bytes(), (directory_ / record.file).string());
     };
     TableReader column_table = reader(0, manifest_.columns);
-    steps_ = column_table.take_floats(columns * channel_count(), 0, "step");
-    energies_ = column_table.take_floats(columns * kColours, 0, "energy");
+    steps_ = column_table.take_floats(columns * channel_count(), "step");
+    energies_ = column_table.take_floats(columns * kColours, "energy");
     column_bytes_ = column_table.take<std::uint32_t>(columns);
     column_table.expect_end();
 
     TableReader receiver_table = reader(1, manifest_.receivers);
-    coverage_ = receiver_table.take_floats(receivers, 0, "coverage");
-    tint_ = receiver_table.take_floats(receivers * kColours, 0, "tint");
+    coverage_ = receiver_table.take_floats(receivers, "coverage", 1);
+    tint_ = receiver_table.take_floats(receivers * kColours, "tint");
     receiver_table.expect_end();
 
     TableReader sketch_table = reader(2, manifest_.sketch);
     const auto take_sketch = [&](std::uint32_t rows, const char* scale) {
-        const auto scales = sketch_table.take_floats(columns * kColours, 0, scale);
+        const auto scales = sketch_table.take_floats(columns * kColours, scale);
         return Sketch(rows, scales, sketch_table.take<std::int8_t>(columns * kColours * rows));
     };
     stating_sketch_ = take_sketch(manifest_.stating_rows, "scale of stating rows");
@@ -164,6 +155,31 @@ void Transport::open_shards() {
     for (auto& shard : opened) {
         shards_.push_back(std::move(*shard));
     }
+}
+
+// A server plans its traffic by the table of bytes, and ranks columns by their steps.
+void Transport::check_columns() const {
+    tbb::parallel_for(std::size_t{0}, column_count(), [this](std::size_t column) {
+        std::uint64_t bytes = 0;
+        for (const ShardReader& shard : shards_) {
+            for (std::uint32_t channel = 0; channel < channel_count(); ++channel) {
+                const std::uint32_t segment = shard.segment_bytes(column, channel);
+                bytes += segment;
+                if (segment > 0 && step(column, channel) == 0) {
+                    throw TransportError(fmt::format(
+                        "{}: step of column {} channel {}: found 0, expected a positive number "
+                        "for a column that holds values",
+                        (directory_ / manifest_.columns.file).string(), column, channel));
+                }
+            }
+        }
+        if (bytes != column_bytes_[column]) {
+            throw TransportError(
+                fmt::format("{}: bytes of column {}: found {}, expected {} as in the shards",
+                            (directory_ / manifest_.columns.file).string(), column,
+                            column_bytes_[column], bytes));
+        }
+    });
 }
 
 }  // namespace relume::transport

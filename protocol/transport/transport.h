@@ -85,6 +85,7 @@ class Transport {
     explicit Transport(const std::filesystem::path& directory);
     void open_tables();
     void open_shards();
+    void check_columns() const;
 
     std::filesystem::path directory_;
     Manifest manifest_;

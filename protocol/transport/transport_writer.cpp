@@ -1,6 +1,6 @@
 #include "protocol/transport/transport_writer.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/column_summary.h"
 #include "protocol/transport/error.h"
@@ -12,12 +12,12 @@ namespace {
 
 FileRecord write_table(const std::filesystem::path& directory,
                        const std::string& name,
-                       std::initializer_list<Bytes> parts) {
+                       std::initializer_list<files::Bytes> parts) {
     std::vector<std::byte> bytes;
-    for (const Bytes part : parts) {
+    for (const files::Bytes part : parts) {
         bytes.insert(bytes.end(), part.begin(), part.end());
     }
-    write_file_atomically(directory / name, {bytes});
+    files::write_file_atomically(directory / name, {bytes});
     return {.file = name, .bytes = bytes.size(), .checksum = checksum(bytes)};
 }
 
@@ -112,19 +112,21 @@ void TransportWriter::finish(const BakedTables& tables, const nlohmann::json& me
     }
     const ColumnSummary summary =
         summarise_columns(manifest_, shards, tables.steps, tables.tint);
-    manifest_.columns = write_table(
-        directory_, "columns.bin",
-        {bytes_of(tables.steps), bytes_of(summary.energies), bytes_of(summary.column_bytes)});
-    manifest_.receivers = write_table(directory_, "receivers.bin",
-                                      {bytes_of(tables.coverage), bytes_of(tables.tint)});
-    manifest_.sketch =
-        write_table(directory_, "sketch.bin",
-                    {bytes_of(summary.stating.scales), bytes_of(summary.stating.values),
-                     bytes_of(summary.choosing.scales), bytes_of(summary.choosing.values)});
+    manifest_.columns =
+        write_table(directory_, "columns.bin",
+                    {files::bytes_of(tables.steps), files::bytes_of(summary.energies),
+                     files::bytes_of(summary.column_bytes)});
+    manifest_.receivers =
+        write_table(directory_, "receivers.bin",
+                    {files::bytes_of(tables.coverage), files::bytes_of(tables.tint)});
+    manifest_.sketch = write_table(
+        directory_, "sketch.bin",
+        {files::bytes_of(summary.stating.scales), files::bytes_of(summary.stating.values),
+         files::bytes_of(summary.choosing.scales), files::bytes_of(summary.choosing.values)});
     manifest_.measured = measured;
     manifest_.measured["cells"] = json_from(statistics);
     const std::string text = text_from_manifest(manifest_);
-    write_file_atomically(directory_ / "manifest.json", {bytes_of(text)});
+    files::write_file_atomically(directory_ / "manifest.json", {files::bytes_of(text)});
 }
 
 }  // namespace relume::transport

@@ -1,5 +1,7 @@
-// Strict JSON [RFC 8259] from a peer that may mean harm.
+// Strict JSON from a peer: what text/strict_json.h refuses becomes a refusal of the wire.
 #pragma once
+
+#include "base/text/strict_json.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,12 +11,12 @@
 
 namespace relume::wire {
 
-// Throws WireError: too_large above `max_bytes`; malformed_json for bad syntax, invalid UTF-8,
-// a key given twice, or nesting beyond kMaxJsonDepth; out_of_range for a number beyond double.
-[[nodiscard]] nlohmann::json parse_json(std::string_view text, std::size_t max_bytes);
+using text::kMaxJsonDepth;
+using text::quote;
 
-// A value as an error message quotes it: its JSON text, cut after some 60 characters.
-[[nodiscard]] std::string quote(const nlohmann::json& value);
+// Throws WireError: too_large above `max_bytes`; out_of_range for a number beyond double;
+// malformed_json for all else that parse_strict_json refuses, with line and column.
+[[nodiscard]] nlohmann::json parse_json(std::string_view json, std::size_t max_bytes);
 
 // `path` with one more step, escaped [RFC 6901 §3].
 [[nodiscard]] std::string pointer_step(std::string_view path, std::string_view key);

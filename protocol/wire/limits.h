@@ -25,8 +25,6 @@ struct Limits {
 
 // Ids, revisions and sequence numbers stay within what a JSON number holds in every language.
 inline constexpr std::uint64_t kMaxInteger = (std::uint64_t{1} << 53) - 1;
-// Levels of arrays and objects in any message; the deepest legitimate one has six.
-inline constexpr std::size_t kMaxJsonDepth = 16;
 // What a client accepts from a server in one text frame: a snapshot with all lights is far
 // below.
 inline constexpr std::size_t kMaxServerMessageBytes = std::size_t{1} << 20;

@@ -1,6 +1,6 @@
 #include "server/net/server.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "server/engine/band_images.h"
 #include "server/net/access.h"
 #include "server/net/http_routes.h"
@@ -156,7 +156,7 @@ Server::Server(const Configuration& configuration)
                  endpoint.port());
     if (!configuration.port_file.empty()) {
         const std::string text = fmt::format("{}\n", endpoint.port());
-        transport::write_file_atomically(configuration.port_file, {transport::bytes_of(text)});
+        files::write_file_atomically(configuration.port_file, {files::bytes_of(text)});
     }
     parts.listener.start(parts.services);
     for (std::size_t i = 0; i < configuration.io_threads; ++i) {

@@ -1,6 +1,6 @@
 #include "tests/stability/stability_report.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "tests/lab/report/html_page.h"
 #include "tests/stability/contact_sheet.h"
 
@@ -27,7 +27,7 @@ void write_report(const std::filesystem::path& folder,
                   bool complete) {
     std::filesystem::create_directories(folder);
     const std::string json = json_from(results).dump(2);
-    transport::write_file_atomically(folder / "stability.json", {transport::bytes_of(json)});
+    files::write_file_atomically(folder / "stability.json", {files::bytes_of(json)});
     lab::HtmlPage page("Where the methods fail");
     if (!complete) {
         page.warning(fmt::format("Interrupted after {} failures.", results.size()));

@@ -1,5 +1,6 @@
 #include "precompute/scene/builtin.h"
 
+#include "base/text/near_names.h"
 #include "precompute/scene/builtin/scenes.h"
 #include "precompute/scene/error.h"
 
@@ -22,14 +23,15 @@ const std::vector<BuiltinScene>& builtin_scenes() {
 }
 
 Scene build_builtin_scene(std::string_view name) {
-    std::string known;
+    std::vector<std::string> known;
     for (const BuiltinScene& scene : builtin_scenes()) {
         if (scene.name == name)
             return scene.build();
-        known += (known.empty() ? "" : ", ") + std::string(scene.name);
+        known.emplace_back(scene.name);
     }
     throw SceneError(SceneFault::unknown_name,
-                     fmt::format("no built-in scene '{}'; expected one of {}", name, known));
+                     fmt::format("no built-in scene '{}'; expected {}", name,
+                                 text::expected_name(name, known, "built-in scenes")));
 }
 
 }  // namespace relume::scene

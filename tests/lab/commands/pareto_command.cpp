@@ -1,5 +1,5 @@
 // relume-lab pareto: error against cost for every method, on several scenes and lights.
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "tests/lab/charts/pareto_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"
@@ -100,7 +100,7 @@ void write_report(const ParetoOptions& options,
     const fs::path output(options.output);
     fs::create_directories(output);
     const std::string csv = csv_from(panels);
-    transport::write_file_atomically(output / "pareto.csv", {transport::bytes_of(csv)});
+    files::write_file_atomically(output / "pareto.csv", {files::bytes_of(csv)});
     draw_pareto_chart(output / "pareto", panels.front());
     const std::size_t columns = options.lights.size();
     draw_pareto_multiples(output / "pareto-ms", panels, columns, ParetoCost::milliseconds);

@@ -1,5 +1,5 @@
 // relume-lab terms: error against the number of terms of one light.
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "tests/lab/charts/terms_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"
@@ -33,7 +33,7 @@ int run(const TermsOptions& options) {
         records.insert(records.end(), curve.records.begin(), curve.records.end());
     }
     const std::string csv = csv_from_records(records);
-    transport::write_file_atomically(output / "terms.csv", {transport::bytes_of(csv)});
+    files::write_file_atomically(output / "terms.csv", {files::bytes_of(csv)});
     draw_terms_chart(output / "terms", options.scene.title(), curves);
     return 0;
 }

@@ -1,6 +1,6 @@
 #include "tests/lab/report/html_page.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
@@ -108,7 +108,7 @@ void HtmlPage::write(const std::filesystem::path& file) const {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>\n"
         "<style>{}</style></head>\n<body>\n{}</body></html>\n",
         escaped(title_), kStyle, body_);
-    transport::write_file_atomically(file, {transport::bytes_of(html)});
+    files::write_file_atomically(file, {files::bytes_of(html)});
 }
 
 }  // namespace relume::lab

@@ -1,6 +1,6 @@
 #include "tests/lab/report/run_report.h"
 
-#include "protocol/transport/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "tests/lab/charts/coverage_sheet.h"
 #include "tests/lab/charts/picture_sheet.h"
 #include "tests/lab/charts/run_charts.h"
@@ -32,7 +32,7 @@ nlohmann::json json_from_run(const Experiment& experiment, const Findings& findi
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-    transport::write_file_atomically(file, {transport::bytes_of(text)});
+    files::write_file_atomically(file, {files::bytes_of(text)});
 }
 
 std::vector<Picture> pictures_of_image(const Findings& findings, std::uint32_t image) {

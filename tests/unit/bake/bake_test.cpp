@@ -1,5 +1,6 @@
 #include "precompute/bake/bake.h"
 
+#include "base/program/usage.h"
 #include "precompute/bake/error.h"
 #include "precompute/bake/inspect.h"
 #include "precompute/bake/relight.h"
@@ -200,7 +201,7 @@ TEST_F(Bake, RefusesParametersOutOfRangeByName) {
         change(parameters);
         try {
             bake(scene, parameters, path_);
-        } catch (const BakeError& error) {
+        } catch (const program::UsageError& error) {
             return std::string(error.what());
         }
         return std::string("nothing");

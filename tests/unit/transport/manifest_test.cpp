@@ -134,12 +134,61 @@ TEST(Manifest, RefusesEveryWrongValue) {
             m["camera"]["eye"] = {1, 2};
         },
         [](auto& m) { m["camera"]["tan_half_width"] = "wide"; },
+        [](auto& m) { m["camera"]["tan_half_width"] = 0; },
+        [](auto& m) { m["camera"]["tan_half_height"] = -1; },
+        [](auto& m) { m["camera"]["eye"][0] = 1e300; },
+        [](auto& m) {
+            m["camera"]["up"] = {0, 2, 0};
+        },
+        [](auto& m) {
+            m["camera"]["up"] = {0, 0, 0};
+        },
+        [](auto& m) {
+            m["camera"]["forward"] = {0, 1, 0};
+        },
+        [](auto& m) {
+            m["camera"]["right"] = {0.8, 0.6, 0};
+        },
+        [](auto& m) { m["colour"]["matrix"][2][0] = 1e39; },
+        [](auto& m) { m["files"]["columns"]["file"] = std::string("columns.bin\0x", 13); },
+        [](auto& m) { m["files"]["columns"]["file"] = "./columns.bin"; },
+        [](auto& m) { m["files"]["columns"]["file"] = "a//columns.bin"; },
+        [](auto& m) { m["files"]["columns"]["file"] = "columns.bin\n"; },
+        [](auto& m) { m["files"]["columns"]["file"] = std::string(1000, 'a'); },
+        [](auto& m) { m["shards"][0]["file"] = std::string("shards/0\0", 9); },
+        [](auto& m) { m["bake"] = 5; },
+        [](auto& m) { m["measured"] = "much"; },
+        [](auto& m) {
+            for (int i = 0; i < 20; ++i) {
+                m["measured"] = {{"deeper", m["measured"]}};
+            }
+        },
     };
     int number = 0;
     for (const Change& change : changes) {
         EXPECT_THROW((void)manifest_from_text(changed(change), "m"), TransportError)
             << "change " << number;
         ++number;
+    }
+}
+
+// What follows the checksum line, with that line before it.
+std::string with_checksum(const std::string& body) {
+    return "{\"xxh3\":\"" + text_from_checksum(checksum(std::as_bytes(std::span(body)))) +
+           "\",\n" + body;
+}
+
+TEST(Manifest, NestingAndKeysAreThoseOfStrictJson) {
+    const std::string text = text_from_manifest(sample());
+    const std::string body = text.substr(text.find('\n') + 1);
+    EXPECT_NO_THROW((void)manifest_from_text(with_checksum(body), "m"));
+    constexpr std::size_t kLevels = 100'000;
+    const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
+    for (const std::string& first :
+         {"\"measured2\":" + nested + ",", std::string("\"kind\":\"image\","),
+          std::string("\"xxh3\":\"0\",")}) {
+        EXPECT_THROW((void)manifest_from_text(with_checksum(first + body), "m"), TransportError)
+            << first.substr(0, 60);
     }
 }
 

@@ -6,12 +6,13 @@
 #include <initializer_list>
 #include <span>
 
-namespace relume::transport {
+namespace relume::files {
 
 using Bytes = std::span<const std::byte>;
 
-// Writes the parts one after another. Throws TransportError naming the file and the system's
-// reason; the old file, if any, is then still there.
+// Writes the parts one after another. What an earlier run left under the temporary name is in
+// nobody's way. Throws FileError naming the file and the system's reason; the old file, if any,
+// is then still there.
 void write_file_atomically(const std::filesystem::path& path,
                            std::initializer_list<Bytes> parts);
 
@@ -20,4 +21,4 @@ template <typename T>
     return std::as_bytes(std::span(contiguous));
 }
 
-}  // namespace relume::transport
+}  // namespace relume::files

@@ -1,0 +1,132 @@
+#include "precompute/bake/verdict.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace relume::bake {
+namespace {
+
+constexpr std::size_t kMostLines = 20;
+
+// Names out of a scene's file may hold anything; a terminal obeys control characters.
+std::string printable(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
+void add_list(std::string& text, const char* title, const std::vector<std::string>& lines) {
+    if (lines.empty()) {
+        return;
+    }
+    text += fmt::format("  {}:\n", title);
+    for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) {
+        text += fmt::format("    {}\n", printable(lines[i]));
+    }
+    if (lines.size() > kMostLines) {
+        text += fmt::format("    and {} more, in report.json\n", lines.size() - kMostLines);
+    }
+}
+
+// A path as a shell takes it.
+std::string shell_word(const std::string& text) {
+    const bool plain =
+        !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+            return std::isalnum(c) != 0 || c == '/' || c == '.' || c == '_' || c == '-' ||
+                   c == '+' || c == ',';
+        });
+    if (plain) {
+        return text;
+    }
+    std::string word = "'";
+    for (const char c : text) {
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return word + "'";
+}
+
+std::string bounces_text(int bounces) {
+    if (bounces == 0) {
+        return "direct light alone, without interreflection";
+    }
+    return fmt::format("direct light and {} bounce{}", bounces, bounces == 1 ? "" : "s");
+}
+
+std::string purpose(const nlohmann::json& description) {
+    const auto& basis = description.at("basis");
+    const auto& image = description.at("image");
+    const int bounces = description.at("bake").value("bounces", 0);
+    std::string detail;
+    if (basis.contains("order")) {
+        const int order = basis.at("order").get<int>();
+        detail = fmt::format(
+            "soft light without sharp shadows, down to some {:.0f}° (spherical "
+            "harmonics of order {})",
+            180.0 / order, order);
+    } else {
+        const int n = basis.at("face_resolution").get<int>();
+        detail =
+            fmt::format("light of any kind, with detail down to {:.1f}° (6×{n}×{n} texels)",
+                        90.0 / n, fmt::arg("n", n));
+    }
+    return fmt::format("  good for {}; {}; {}×{} pixels from this one camera\n", detail,
+                       bounces_text(bounces), image.at("width").get<int>(),
+                       image.at("height").get<int>());
+}
+
+std::string errors(const nlohmann::json& measured) {
+    const auto found = measured.find("quantisation_error");
+    if (found == measured.end() || !found->contains("natural") || !found->contains("sun")) {
+        return {};
+    }
+    const auto of = [&](const char* light) {
+        return found->at(light).at("relative_l2").get<double>();
+    };
+    return fmt::format(
+        "  error of storing it: {} of the image under a natural map, {} under a "
+        "bare sun (relative L2)\n",
+        per_cent(of("natural")), per_cent(of("sun")));
+}
+
+}  // namespace
+
+std::string per_cent(double fraction) {
+    const double percent = 100 * fraction;
+    if (!(percent > 0)) {
+        return "0 %";
+    }
+    // Two digits that count.
+    const int decimals =
+        std::clamp(1 - static_cast<int>(std::floor(std::log10(percent))), 0, 6);
+    return fmt::format("{:.{}f} %", percent, decimals);
+}
+
+std::string verdict(const scene::ImportReport& report,
+                    const nlohmann::json& description,
+                    const std::filesystem::path& directory) {
+    std::string text = fmt::format("{} is whole.\n", printable(directory.string()));
+    text += purpose(description);
+    text += errors(description.at("measured"));
+    text += fmt::format("  {:.1f} MB to keep in memory\n",
+                        description.at("bytes").get<double>() / 1e6);
+    add_list(text, "not used of the scene", report.unused);
+    add_list(text, "repaired in the scene", report.repairs);
+    const std::filesystem::path folder =
+        directory.has_parent_path() ? directory.parent_path() : ".";
+    text += fmt::format("  see it:   {}\n",
+                        printable((directory / "view" / "picture.png").string()));
+    text += fmt::format("  serve it: relume-server --scenes {}\n", shell_word(folder.string()));
+    text +=
+        fmt::format("  light it: relume render --scene {} --environment FILE.hdr -o {}.png\n",
+                    directory.stem().string(), directory.stem().string());
+    return text;
+}
+
+}  // namespace relume::bake
