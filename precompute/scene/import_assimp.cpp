@@ -69,20 +69,9 @@ void check_mesh(const std::string& file, const aiMesh& mesh) {
 }
 
 void report_unused(const aiScene& source, const FolderIo& io, ImportReport& report) {
-    for (unsigned i = 0; i < source.mNumLights; ++i)
-        report.unused.push_back(fmt::format("light '{}'", source.mLights[i]->mName.C_Str()));
-    if (source.mNumAnimations > 0)
-        report.unused.push_back(
-            fmt::format("{} animations (the rest pose is used)", source.mNumAnimations));
     std::size_t loose = 0;
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
         const aiMesh& mesh = *source.mMeshes[i];
-        if (mesh.HasBones())
-            report.unused.push_back(
-                fmt::format("skin of mesh '{}' (the rest pose is used)", mesh.mName.C_Str()));
-        if (mesh.mNumAnimMeshes > 0)
-            report.unused.push_back(
-                fmt::format("morph targets of mesh '{}'", mesh.mName.C_Str()));
         for (unsigned k = 0; k < mesh.mNumFaces; ++k)
             loose += mesh.mFaces[k].mNumIndices < 3 ? 1 : 0;
     }
@@ -91,11 +80,6 @@ void report_unused(const aiScene& source, const FolderIo& io, ImportReport& repo
     for (const std::string& file : io.refused())
         report.unused.push_back(
             fmt::format("file '{}' (missing, too large or outside the scene's folder)", file));
-}
-
-// glTF says that a mesh without normals is flat, and that vertex colours are linear.
-bool wants_smooth_normals(FileFormat format) {
-    return format != FileFormat::gltf;
 }
 
 void decode_vertex_colours(Scene& scene) {
@@ -135,7 +119,6 @@ void check_log(const std::string& file, const ImportLog& log, ImportReport& repo
 
 const aiScene& read_file(Assimp::Importer& importer,
                          const fs::path& path,
-                         FileFormat format,
                          ImportReport& report) {
     const ImportLog log;
     const std::string file = path.string();
@@ -163,14 +146,11 @@ const aiScene& read_file(Assimp::Importer& importer,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene& polygons = require(importer.ApplyPostProcessing(aiProcess_SortByPType));
     if (lacks_normals(polygons))
-        report.repairs.emplace_back(wants_smooth_normals(format)
-                                        ? "missing normals made, smooth up to 60 degree edges"
-                                        : "meshes without normals are shaded flat");
-    unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
-    if (wants_smooth_normals(format))
-        steps |= aiProcess_GenSmoothNormals;
+        report.repairs.emplace_back("missing normals made, smooth up to 60 degree edges");
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseDegrees);
-    return require(importer.ApplyPostProcessing(steps));
+    return require(importer.ApplyPostProcessing(aiProcess_Triangulate |
+                                                aiProcess_JoinIdenticalVertices |
+                                                aiProcess_GenSmoothNormals));
 }
 
 }  // namespace
@@ -186,12 +166,10 @@ ImportedScene import_with_assimp(const fs::path& path,
     const fs::path folder = fs::absolute(path).parent_path();
     Assimp::Importer importer;
     importer.SetIOHandler(new FolderIo(folder, options.max_file_bytes));  // importer owns it
-    const aiScene& source = read_file(importer, path, format, scene.report);
+    const aiScene& source = read_file(importer, path, scene.report);
     import_meshes(source, options.max_triangles, options.max_nodes, imported);
     MaterialImporter(source, format, folder, options.max_textures, scene).import_all();
-    import_cameras(source, imported);
-    if (format != FileFormat::gltf)
-        decode_vertex_colours(scene);
+    decode_vertex_colours(scene);
     if (format == FileFormat::ply)
         whiten_coloured_materials(scene);
     return imported;

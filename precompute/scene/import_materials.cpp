@@ -3,7 +3,6 @@
 #include "precompute/scene/error.h"
 #include "precompute/scene/import_folder.h"
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -72,51 +71,11 @@ MaterialImporter::MaterialImporter(const aiScene& source,
 void MaterialImporter::import_all() {
     for (std::size_t i = 0; i < source_.mNumMaterials; ++i) {
         const aiMaterial& from = *source_.mMaterials[i];
-        Material material;
-        switch (format_) {
-            case FileFormat::gltf:
-                material = metallic_roughness(from);
-                break;
-            case FileFormat::obj:
-                material = from_mtl(from);
-                break;
-            case FileFormat::ply:
-                material = from_ply(from);
-                break;
-        }
+        Material material = format_ == FileFormat::obj ? from_mtl(from) : from_ply(from);
         material.name = name_of(from, i);
         report_unused(from, material);
         scene_.materials.push_back(std::move(material));
     }
-}
-
-Material MaterialImporter::metallic_roughness(const aiMaterial& m) {
-    Material material;
-    material.name = name_of(m, scene_.materials.size());
-    material.model = BsdfModel::ggx;
-    aiColor4D base(1, 1, 1, 1);
-    m.Get(AI_MATKEY_BASE_COLOR, base);
-    material.base_colour = {base.r, base.g, base.b};
-    material.opacity = base.a;
-    material.metallic = number(m, AI_MATKEY_METALLIC_FACTOR, 1);
-    material.roughness = number(m, AI_MATKEY_ROUGHNESS_FACTOR, 1);
-    material.base_texture =
-        texture(m, AI_MATKEY_BASE_COLOR_TEXTURE, TextureContent::colour, material);
-    material.surface_texture =
-        texture(m, AI_MATKEY_GLTF_PBRMETALLICROUGHNESS_METALLICROUGHNESS_TEXTURE,
-                TextureContent::data, material);
-    material.normal_texture =
-        texture(m, aiTextureType_NORMALS, 0, TextureContent::data, material);
-    material.normal_scale =
-        number(m, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), 1);
-    aiString mode;
-    if (m.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS) {
-        if (mode == aiString("MASK"))
-            material.alpha_cutoff = number(m, AI_MATKEY_GLTF_ALPHACUTOFF, 0.5F);
-        if (mode == aiString("BLEND"))
-            unused(material, "alpha mode BLEND (taken as opaque)");
-    }
-    return material;
 }
 
 Material MaterialImporter::from_mtl(const aiMaterial& m) {
@@ -155,19 +114,6 @@ void MaterialImporter::report_unused(const aiMaterial& m, const Material& materi
     if (!is_black(colour(m, AI_MATKEY_COLOR_EMISSIVE, Imath::V3f(0))) ||
         m.GetTextureCount(aiTextureType_EMISSIVE) > 0)
         unused(material, "emission");
-    if (number(m, AI_MATKEY_TRANSMISSION_FACTOR, 0) > 0)
-        unused(material, "transmission (taken as opaque)");
-    if (number(m, AI_MATKEY_VOLUME_THICKNESS_FACTOR, 0) > 0)
-        unused(material, "volume");
-    if (number(m, AI_MATKEY_CLEARCOAT_FACTOR, 0) > 0)
-        unused(material, "clear coat");
-    if (!is_black(colour(m, AI_MATKEY_SHEEN_COLOR_FACTOR, Imath::V3f(0))))
-        unused(material, "sheen");
-    if (format_ == FileFormat::gltf && m.GetTextureCount(aiTextureType_LIGHTMAP) > 0)
-        unused(material, "occlusion map (the bake computes occlusion)");
-    float value = 0;
-    if (m.Get(AI_MATKEY_GLOSSINESS_FACTOR, value) == aiReturn_SUCCESS)
-        unused(material, "specular-glossiness");
     if (format_ != FileFormat::obj)
         return;
     if (number(m, AI_MATKEY_OPACITY, 1) < 1 || m.GetTextureCount(aiTextureType_OPACITY) > 0)
@@ -192,13 +138,6 @@ std::optional<TextureIndex> MaterialImporter::texture(const aiMaterial& m,
     aiString path;
     if (m.GetTexture(type, index, &path) != aiReturn_SUCCESS || path.length == 0)
         return std::nullopt;
-    int uv_set = 0;
-    m.Get(AI_MATKEY_UVWSRC(type, index), uv_set);
-    if (uv_set != 0)
-        unused(user, fmt::format("texture coordinates {} (the first set is used)", uv_set));
-    aiUVTransform transform;
-    if (m.Get(AI_MATKEY_UVTRANSFORM(type, index), transform) == aiReturn_SUCCESS)
-        unused(user, "texture transform");
     int wrap_u = aiTextureMapMode_Wrap;
     int wrap_v = aiTextureMapMode_Wrap;
     m.Get(AI_MATKEY_MAPPINGMODE_U(type, index), wrap_u);
@@ -209,11 +148,7 @@ std::optional<TextureIndex> MaterialImporter::texture(const aiMaterial& m,
         fmt::format("{} {} {} {}", static_cast<int>(content), wrap_u, wrap_v, reference);
     if (const auto known = loaded_.find(key); known != loaded_.end())
         return known->second;
-    std::optional<TextureIndex> result;
-    if (const aiTexture* embedded = source_.GetEmbeddedTexture(reference.c_str()))
-        result = add(texture_from_embedded(reference, *embedded, content));
-    else
-        result = texture_from_file(reference, content, user);
+    const auto result = texture_from_file(reference, content, user);
     if (result)
         scene_.textures[*result].set_wrap(wrap_of(static_cast<aiTextureMapMode>(wrap_u)),
                                           wrap_of(static_cast<aiTextureMapMode>(wrap_v)));

@@ -14,7 +14,6 @@
 
 struct aiMaterial;
 struct aiScene;
-struct aiTexture;
 
 namespace relume::scene {
 
@@ -33,7 +32,6 @@ class MaterialImporter {
     void import_all();
 
   private:
-    [[nodiscard]] Material metallic_roughness(const aiMaterial& source);
     [[nodiscard]] Material from_mtl(const aiMaterial& source);
     [[nodiscard]] Material from_ply(const aiMaterial& source);
     void report_unused(const aiMaterial& source, const Material& material);
@@ -56,10 +54,5 @@ class MaterialImporter {
     std::map<std::string, std::optional<TextureIndex>>
         loaded_;  // key: content, wrap, reference
 };
-
-// An embedded picture, compressed or as plain texels.
-[[nodiscard]] Texture texture_from_embedded(const std::string& name,
-                                            const aiTexture& source,
-                                            TextureContent content);
 
 }  // namespace relume::scene

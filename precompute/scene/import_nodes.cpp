@@ -3,13 +3,10 @@
 #include "precompute/scene/error.h"
 
 #include <Imath/ImathMatrix.h>
-#include <assimp/camera.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,12 +22,6 @@ Imath::M44d matrix_of(const aiMatrix4x4& m) {
 
 Imath::V3d vector_of(const aiVector3D& v) {
     return {v.x, v.y, v.z};
-}
-
-Imath::V3d transformed_direction(const Imath::M44d& m, const Imath::V3d& direction) {
-    Imath::V3d out;
-    m.multDirMatrix(direction, out);
-    return out;
 }
 
 // Normals go with the cofactors of the matrix: right for any scale and mirror, no inverse.
@@ -89,29 +80,6 @@ std::string mesh_name(const aiNode& node, const aiMesh& mesh) {
                                  : std::string(node.mName.C_Str());
 }
 
-Imath::M44d world_matrix_of(const aiNode* node) {
-    Imath::M44d matrix;
-    for (; node != nullptr; node = node->mParent)
-        matrix = matrix * matrix_of(node->mTransformation);
-    return matrix;
-}
-
-// assimp 5.2 hands on glTF's vertical angle times the aspect, if the file names one.
-double vertical_fov_degrees(const aiCamera& camera) {
-    const double aspect = camera.mAspect > 0 ? camera.mAspect : 1.0F;
-    return camera.mHorizontalFOV / aspect * 180.0 / std::numbers::pi;
-}
-
-NamedCamera camera_in_world(const aiScene& source, const aiCamera& camera) {
-    const Imath::M44d to_world = world_matrix_of(source.mRootNode->FindNode(camera.mName));
-    // At its node's origin: mPosition repeats the node's own translation.
-    return {.name = camera.mName.C_Str(),
-            .eye = Imath::V3d(0) * to_world,
-            .forward = transformed_direction(to_world, vector_of(camera.mLookAt)).normalized(),
-            .up = transformed_direction(to_world, vector_of(camera.mUp)).normalized(),
-            .vertical_fov_degrees = vertical_fov_degrees(camera)};
-}
-
 }  // namespace
 
 void import_meshes(const aiScene& source,
@@ -142,19 +110,6 @@ void import_meshes(const aiScene& source,
         }
         for (unsigned i = node->mNumChildren; i > 0; --i)  // children in the file's order
             open.emplace_back(node->mChildren[i - 1], to_world);
-    }
-}
-
-void import_cameras(const aiScene& source, ImportedScene& imported) {
-    for (unsigned i = 0; i < source.mNumCameras; ++i) {
-        const aiCamera& camera = *source.mCameras[i];
-        if (camera.mOrthographicWidth > 0) {
-            imported.scene.report.unused.push_back(
-                fmt::format("camera '{}': orthographic", camera.mName.C_Str()));
-            continue;
-        }
-        imported.cameras.push_back(camera_in_world(source, camera));
-        imported.cameras.back().index = static_cast<std::uint32_t>(imported.cameras.size() - 1);
     }
 }
 

@@ -1,4 +1,4 @@
-// The node tree of an assimp scene: instances flattened into world space, cameras found.
+// The node tree of an assimp scene: instances flattened into world space.
 #pragma once
 
 #include "precompute/scene/imported_scene.h"
@@ -14,8 +14,5 @@ void import_meshes(const aiScene& source,
                    std::uint64_t max_triangles,
                    std::uint32_t max_nodes,
                    ImportedScene& imported);
-
-// Every perspective camera; the others are named in the report.
-void import_cameras(const aiScene& source, ImportedScene& imported);
 
 }  // namespace relume::scene
