@@ -1,47 +1,14 @@
 /** What a person does with the studio page, done by a browser; see README.md. */
 import assert from "node:assert/strict";
-import { readFile, writeFile } from "node:fs/promises";
-import { join } from "node:path";
-import { after, afterEach, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { largestCodeDistance, readExr, relativeL2 } from "./images.mjs";
-import { relume, Server, setting } from "./programs.mjs";
-import { launchBrowser, StudioPage } from "./studio_page.mjs";
-
-const output = (name) => join(setting("STUDIO_OUTPUT"), name);
+import { radianceFile } from "./maps.mjs";
+import { relume } from "./programs.mjs";
+import { output, Suite } from "./suite.mjs";
 
 describe("studio page", { timeout: 240_000 }, () => {
-    let server;
-    let browser;
-    let scene;
-    const open = [];
-
-    before(async () => {
-        server = await Server.onFreePort();
-        await server.start();
-        browser = await launchBrowser();
-        ({
-            scenes: [scene],
-        } = await server.json("/api/scenes"));
-    });
-
-    after(async () => {
-        await browser?.close();
-        await server?.stop("SIGTERM");
-        await writeFile(output("server.log"), server?.log ?? "");
-    });
-
-    afterEach(async () => {
-        for (const page of open.splice(0)) {
-            assert.deepEqual(page.errors, [], "no script of the page failed");
-            await page.close();
-        }
-    });
-
-    async function openStudio(query) {
-        const page = await StudioPage.open(browser, `${server.origin}/?${query}`);
-        open.push(page);
-        return page;
-    }
+    const suite = new Suite("studio");
+    const openStudio = (query) => suite.open(query);
 
     /** Renders the same state by the command line and holds the page's image against it. */
     async function compareWithClient(test, page, room, fileName) {
@@ -49,9 +16,9 @@ describe("studio page", { timeout: 240_000 }, () => {
         await relume(
             "render",
             "--server",
-            server.origin,
+            suite.server.origin,
             "--scene",
-            scene.name,
+            suite.scene,
             ...room,
             "--until-exact",
             "-o",
@@ -74,7 +41,7 @@ describe("studio page", { timeout: 240_000 }, () => {
     }
 
     it("drags to another light, becomes exact, and shows what the client renders", async (test) => {
-        const page = await openStudio(`scene=${scene.name}&room=drag`);
+        const page = await openStudio(`scene=${suite.scene}&room=drag`);
         await page.untilExact();
         const before = (await page.state()).rotation.quaternion;
         const first = await page.shown();
@@ -96,7 +63,7 @@ describe("studio page", { timeout: 240_000 }, () => {
     it("develops exposure and tone curve itself, at once, with and without WebGL2", async () => {
         for (const painter of ["webgl2", "canvas2d"]) {
             const page = await openStudio(
-                `scene=${scene.name}&room=display-${painter}&painter=${painter}`,
+                `scene=${suite.scene}&room=display-${painter}&painter=${painter}`,
             );
             await page.untilExact();
             assert.equal(await page.page.evaluate(() => window.relume.painter), painter);
@@ -113,15 +80,22 @@ describe("studio page", { timeout: 240_000 }, () => {
                 );
             }
             await page.untilExact();
+            // It is this viewer's own until he makes it the room's.
+            const mine = { exposure_stops: -1, tone: "linear" };
             assert.deepEqual((await page.state()).display, {
-                exposure_stops: -1,
-                tone: "linear",
+                exposure_stops: 0,
+                tone: "filmic",
             });
+            assert.deepEqual(await page.display(), mine);
+            await page.button("Make it the room's default").click();
+            await page.until((relume) => relume.state.display.exposure_stops === -1);
+            await page.untilExact();
+            assert.deepEqual((await page.state()).display, mine);
         }
     });
 
     it("adds, moves, resizes and removes an area light", async () => {
-        const page = await openStudio(`scene=${scene.name}&room=lights`);
+        const page = await openStudio(`scene=${suite.scene}&room=lights`);
         await page.untilExact();
         const dark = await page.shown();
         const map = page.page.locator("#light-map");
@@ -162,8 +136,8 @@ describe("studio page", { timeout: 240_000 }, () => {
 
     it("shows the same image to everyone in the room", async () => {
         const [one, two] = [
-            await openStudio(`scene=${scene.name}&room=shared`),
-            await openStudio(`scene=${scene.name}&room=shared`),
+            await openStudio(`scene=${suite.scene}&room=shared`),
+            await openStudio(`scene=${suite.scene}&room=shared`),
         ];
         for (const page of [one, two]) await page.untilExact();
         await one.page.bringToFront();
@@ -179,7 +153,7 @@ describe("studio page", { timeout: 240_000 }, () => {
     });
 
     it("says what is wrong with an upload, and lives on", async () => {
-        const page = await openStudio(`scene=${scene.name}&room=upload`);
+        const page = await openStudio(`scene=${suite.scene}&room=upload`);
         await page.untilExact();
         const environment = (await page.state()).environment.name;
         const truncated = Buffer.from(
@@ -215,77 +189,27 @@ describe("studio page", { timeout: 240_000 }, () => {
             .waitFor();
     });
 
-    it("saves the settled image as it shows", async () => {
-        const page = await openStudio(`scene=${scene.name}&room=save`);
-        await page.untilExact();
-        const [download] = await Promise.all([
-            page.page.waitForEvent("download"),
-            page.page.keyboard.press("s"),
-        ]);
-        await download.saveAs(output("saved.png"));
-        const address = `data:image/png;base64,${await readBase64(output("saved.png"))}`;
-        const saved = await page.page.evaluate(async (url) => {
-            const image = new Image();
-            image.src = url;
-            await image.decode();
-            const canvas = document.createElement("canvas");
-            canvas.width = image.naturalWidth;
-            canvas.height = image.naturalHeight;
-            const context = canvas.getContext("2d");
-            context.drawImage(image, 0, 0);
-            return Array.from(context.getImageData(0, 0, canvas.width, canvas.height).data);
-        }, address);
-        const { rgb, display } = await page.shown();
-        assert.equal(saved.length, (rgb.length / 3) * 4);
-        assert.ok(largestCodeDistance(saved, rgb, display) <= 1);
-    });
-
-    it("does not come back to a scene that is not there", async () => {
-        const page = await openStudio("scene=no-such-scene&room=nowhere");
-        await page.until((relume) => relume.status === "refused");
-        assert.match(await page.page.locator("#status-words").innerText(), /scene is unknown/);
-    });
-
     it("comes back by itself after the server was killed and started again", async () => {
-        const page = await openStudio(`scene=${scene.name}&room=restart`);
+        const page = await openStudio(`scene=${suite.scene}&room=restart`);
         await page.untilExact();
         await page.drag(100, 0);
         await page.untilExact();
         const before = await page.state();
         const image = await page.shown();
-        await server.stop();
+        await suite.server.stop();
         await page.until((relume) => relume.status === "waiting");
         assert.equal(await page.markWords(), "Offline");
         await page.page.screenshot({ path: output("offline.png") });
-        await server.start();
+        await suite.server.start();
         await page.until((relume) => relume.status === "open");
         await page.untilExact();
         // A new server knows nothing of the room: the page takes its word, and offers its own.
         assert.notDeepEqual((await page.state()).rotation, before.rotation);
-        await page.page.getByRole("button", { name: "Bring back the light" }).click();
+        await page.button("Bring back the light").click();
+        await page.page.locator(".notice", { hasText: "back as it was" }).waitFor();
         await page.untilExact();
         assert.deepEqual(await page.state(), before);
         const error = relativeL2((await page.shown()).rgb, image.rgb);
         assert.ok(error <= 1e-5, `the image is ${error} off what it was`);
     });
 });
-
-/** A Radiance file of uncoded pixels: a bright disc in a grey surround. */
-function radianceFile(width, height) {
-    const header = `#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`;
-    const pixels = Buffer.alloc(width * height * 4);
-    for (let y = 0; y < height; ++y) {
-        for (let x = 0; x < width; ++x) {
-            const inDisc = Math.hypot(x - width / 2, y - height / 3) < 3;
-            pixels.set(
-                inDisc ? [200, 180, 150, 134] : [128, 130, 140, 126],
-                (y * width + x) * 4,
-            );
-        }
-    }
-    return Buffer.concat([Buffer.from(header, "latin1"), pixels]);
-}
-
-async function readBase64(path) {
-    return (await readFile(path)).toString("base64");
-}

@@ -49,6 +49,32 @@ export class StudioPage {
         return this.page.evaluate(() => window.relume.revision);
     }
 
+    display() {
+        return this.page.evaluate(() => window.relume.display);
+    }
+
+    button(name) {
+        return this.page.getByRole("button", { name });
+    }
+
+    /** The row of a light in the list. */
+    light(id) {
+        return this.page.locator(`[data-light-item="${id}"]`);
+    }
+
+    /** Brings a file by the page's own button. */
+    bring(name, buffer) {
+        const mimeType = "application/octet-stream";
+        return this.page.setInputFiles("#upload-input", { name, mimeType, buffer });
+    }
+
+    /** Types into a field of tweakpane, found by its label. */
+    async type(label, text) {
+        const field = this.page.locator(`input[aria-label="${label}"]`).first();
+        await field.fill(text);
+        await field.press("Enter");
+    }
+
     state() {
         return this.page.evaluate(() => window.relume.state);
     }

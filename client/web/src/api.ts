@@ -12,6 +12,8 @@ export interface EnvironmentEntry {
     kind: "file" | "procedural" | "upload";
     width: number;
     height: number;
+    /** Another number for another map of the same name. */
+    version?: number;
 }
 
 export interface UploadResult {
@@ -55,12 +57,18 @@ export class Api {
         return `${this.server}/api/scenes/${encodeURIComponent(scene)}/thumbnail.png`;
     }
 
-    previewAddress(environment: string): string {
-        return `${this.server}/api/environments/${encodeURIComponent(environment)}/preview.jpg`;
+    /** As it is now, whatever the browser has kept. */
+    async preview(environment: string): Promise<ImageBitmap> {
+        const path = `/api/environments/${encodeURIComponent(environment)}/preview.jpg`;
+        const response = await fetch(this.server + path, { cache: "no-cache" });
+        if (!response.ok) throw new ApiError(`No preview of ${environment}`);
+        return createImageBitmap(await response.blob());
     }
 
-    async upload(name: string, file: Blob): Promise<UploadResult> {
+    /** Without a projection the server goes by the picture's shape. */
+    async upload(name: string, file: Blob, projection: string | null): Promise<UploadResult> {
         const query = new URLSearchParams({ name });
+        if (projection !== null) query.set("projection", projection);
         if (this.token !== null) query.set("token", this.token);
         const json = await this.request(`/api/environments?${query.toString()}`, {
             method: "POST",

@@ -1,29 +1,30 @@
 /** The environments to choose from, as pictures. */
-import type { Api, EnvironmentEntry } from "./api";
+import type { EnvironmentEntry } from "./api";
 import { make, setText } from "./dom";
+import { environmentScale } from "./light_picture";
+import type { PreviewStore } from "./preview_store";
 import type { Session } from "./session";
+import type { RoomState } from "./wire/state";
 
 export class EnvironmentList {
     private entries: EnvironmentEntry[] = [];
     private readonly buttons = new Map<string, HTMLButtonElement>();
-    /** Raised when an upload replaces a picture that the browser has in its cache. */
-    private version = 0;
 
     constructor(
         private readonly root: HTMLElement,
-        private readonly api: Api,
+        private readonly previews: PreviewStore,
         private readonly session: Session,
     ) {
         session.stateChanged.listen(() => this.mark());
         session.statusChanged.listen(() => this.mark());
+        previews.loaded.listen((name) => this.drawPicture(name));
     }
 
     get names(): string[] {
         return this.entries.map((entry) => entry.name);
     }
 
-    show(entries: EnvironmentEntry[], replaced = false): void {
-        if (replaced) ++this.version;
+    show(entries: EnvironmentEntry[]): void {
         this.entries = entries;
         this.buttons.clear();
         this.root.replaceChildren(...entries.map((entry) => this.makeItem(entry)));
@@ -43,13 +44,10 @@ export class EnvironmentList {
     }
 
     private makeItem(entry: EnvironmentEntry): HTMLElement {
-        const picture = make("img", "environment-picture", {
-            src: `${this.api.previewAddress(entry.name)}?v=${this.version}`,
-            alt: "",
-            loading: "lazy",
-            draggable: "false",
+        const picture = make("canvas", "environment-picture", {
             width: "256",
             height: "128",
+            "aria-hidden": "true",
         });
         const blend = make("span", "environment-blend", { "aria-hidden": "true" });
         const button = make(
@@ -65,7 +63,18 @@ export class EnvironmentList {
         }
         button.addEventListener("click", () => this.choose(entry.name));
         this.buttons.set(entry.name, button);
+        this.drawPicture(entry.name);
         return make("li", "", {}, button);
+    }
+
+    /** Nothing where the picture is not there yet: it is drawn when it comes. */
+    private drawPicture(name: string): void {
+        const canvas = this.buttons.get(name)?.querySelector("canvas");
+        const pixels = this.previews.get(name);
+        if (!canvas || pixels === null) return;
+        canvas.width = pixels.width;
+        canvas.height = pixels.height;
+        canvas.getContext("2d")?.putImageData(pixels, 0, 0);
     }
 
     private mark(): void {
@@ -74,10 +83,16 @@ export class EnvironmentList {
         for (const [name, button] of this.buttons) {
             button.setAttribute("aria-pressed", String(name === state?.environment.name));
             button.disabled = this.session.status.kind !== "open";
+            const isOn = state !== null && environmentScale(state).some((part) => part > 0);
+            button.classList.toggle("environment-dark", !isOn && isUsed(name, state));
             const blend = button.querySelector(".environment-blend");
             if (blend === null) continue;
             const amount = Math.round(100 * (state?.blend.amount ?? 0));
             setText(blend, name === other ? `+${amount} %` : "");
         }
     }
+}
+
+function isUsed(name: string, state: RoomState | null): boolean {
+    return state?.environment.name === name || state?.blend.name === name;
 }

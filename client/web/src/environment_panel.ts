@@ -3,6 +3,7 @@ import { type FolderApi, Pane } from "tweakpane";
 import type { EnvironmentEntry } from "./api";
 import { hexFromLinear, linearFromHex } from "./colour";
 import { stopsText } from "./format";
+import { understandKelvin } from "./kelvin";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
@@ -43,6 +44,7 @@ export class EnvironmentPanel {
         this.addBlendBindings();
         this.addRotationBindings();
         labelFields(root);
+        understandKelvin(root);
         session.stateChanged.listen(() => this.syncSoon());
         session.statusChanged.listen(({ kind }) => {
             this.pane.disabled = kind !== "open";
@@ -71,7 +73,9 @@ export class EnvironmentPanel {
             const gain = model.gain <= kOffStops ? 0 : 2 ** model.gain;
             this.apply({ environment: { gain } });
         });
-        pane.addBinding(model, "tint", { view: "color" }).on("change", () => {
+        const tint = pane.addBinding(model, "tint", { view: "color", picker: "inline" });
+        tint.element.title = "A colour (#ffcc88) or a temperature (3200K)";
+        tint.on("change", () => {
             this.apply({ environment: { tint: linearFromHex(model.tint) } });
         });
     }

@@ -1,6 +1,6 @@
 /**
- * Exposure and tone curve. On a settled image they act here at once and the room hears of it when
- * the hand rests; while JPEGs show, which come with the room's display applied, it hears at once.
+ * Exposure and tone curve are each viewer's own; the room has a default, which a viewer sees who
+ * has chosen none. On a settled image they act here at once.
  */
 import { clampExposure } from "./display";
 import type { ImageView } from "./image_view";
@@ -8,43 +8,36 @@ import type { Session } from "./session";
 import { Signal } from "./signal";
 import type { DisplayState } from "./wire/state";
 
-const kRestMilliseconds = 180;
-
 export class Exposure {
     readonly changed = new Signal<DisplayState>();
-    private local: DisplayState | null = null;
-    private timer = 0;
+    private mine: DisplayState | null = null;
 
     constructor(
         private readonly session: Session,
         private readonly view: ImageView,
     ) {
-        session.opened.listen(() => {
-            clearTimeout(this.timer);
-            this.local = null;
-        });
         session.stateChanged.listen(() => this.publish());
     }
 
     get display(): DisplayState {
-        return (
-            this.local ??
-            this.session.state?.display ?? { exposure_stops: 0, tone: "filmic" as const }
-        );
+        return this.mine ?? this.roomDisplay;
     }
 
-    /** The room has not heard yet of what shows here. */
-    get isPending(): boolean {
-        return this.local !== null;
+    get roomDisplay(): DisplayState {
+        return this.session.state?.display ?? { exposure_stops: 0, tone: "filmic" as const };
     }
 
+    /** This viewer sees something else than the room's default. */
+    get differs(): boolean {
+        const { exposure_stops, tone } = this.roomDisplay;
+        return this.display.exposure_stops !== exposure_stops || this.display.tone !== tone;
+    }
+
+    /** For this viewer alone. */
     set(change: Partial<DisplayState>): void {
         const display = { ...this.display, ...change };
         display.exposure_stops = clampExposure(display.exposure_stops);
-        this.local = display;
-        clearTimeout(this.timer);
-        if (this.view.settled === null) this.tell();
-        else this.timer = window.setTimeout(() => this.tell(), kRestMilliseconds);
+        this.mine = display;
         this.publish();
     }
 
@@ -54,11 +47,17 @@ export class Exposure {
         });
     }
 
-    private tell(): void {
-        if (this.local === null || this.session.status.kind !== "open") return;
-        const { exposure_stops, tone } = this.local;
-        this.local = null;
+    /** What this viewer sees becomes what everyone sees who has chosen nothing else. */
+    makeDefault(): void {
+        const { exposure_stops, tone } = this.display;
         this.session.edit({ display: { exposure_stops, tone } });
+        this.followRoom();
+    }
+
+    /** Gives up what this viewer has chosen. */
+    followRoom(): void {
+        this.mine = null;
+        this.publish();
     }
 
     private publish(): void {

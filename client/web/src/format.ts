@@ -40,6 +40,11 @@ export function stopsText(stops: number): string {
     return `${sign}${Math.abs(stops).toFixed(2)}`;
 }
 
+/** A light's power in stops; it gives nothing at −∞. */
+export function levelText(stops: number): string {
+    return Number.isFinite(stops) ? `${stopsText(stops)} EV` : "no light";
+}
+
 /** Three significant digits without an exponent. */
 export function amountText(value: number): string {
     if (value === 0) return "0";

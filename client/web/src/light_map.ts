@@ -2,8 +2,7 @@
  * The small lat-long picture of the light. Round lights are added by a double click, moved by
  * dragging, resized by the wheel, removed by Delete; dragging beside them turns the environment.
  */
-import type { AreaLights } from "./area_lights";
-import { brightnessFromLinear } from "./colour";
+import { type AreaLights, lightsNow, nameOfLight } from "./area_lights";
 import { amountText } from "./format";
 import { notchesFromWheel, turnByDrag } from "./image_drag";
 import {
@@ -12,8 +11,10 @@ import {
     type Position,
     positionFromDirection,
 } from "./lat_long";
+import { levelOfLight } from "./light_level";
 import {
     kPictureHeight,
+    environmentScale,
     kPictureWidth,
     LightPicture,
     type PictureSource,
@@ -22,7 +23,7 @@ import { onceAFrame } from "./once_a_frame";
 import { listenForDrag } from "./pointer_drag";
 import type { PreviewStore } from "./preview_store";
 import type { Session } from "./session";
-import type { AreaLight, Triple } from "./wire/state";
+import type { AreaLight } from "./wire/state";
 
 const kSvg = "http://www.w3.org/2000/svg";
 /** Units of the overlay: one per degree. */
@@ -85,7 +86,14 @@ export class LightMap {
         const { environment, blend, rotation } = state;
         const other = blend.name ?? null;
         const amount = other === null ? 0 : blend.amount;
-        const key = JSON.stringify([environment.name, other, amount, rotation.quaternion]);
+        const scale = environmentScale(state);
+        const key = JSON.stringify([
+            environment.name,
+            other,
+            amount,
+            rotation.quaternion,
+            scale,
+        ]);
         if (key === this.drawn) return;
         const sources: PictureSource[] = [];
         const first = this.previews.get(environment.name);
@@ -93,7 +101,7 @@ export class LightMap {
         const second = other === null || amount === 0 ? null : this.previews.get(other);
         if (second !== null) sources.push({ pixels: second, weight: amount });
         this.drawn = key;
-        const image = this.picture.draw(sources, rotation.quaternion);
+        const image = this.picture.draw(sources, rotation.quaternion, scale);
         this.canvas.getContext("2d")?.putImageData(image, 0, 0);
     }
 
@@ -129,15 +137,12 @@ export class LightMap {
                 circle.setAttribute("cy", String(centre.v * kHeight));
             }
         });
-        const [r, g, b] = light.radiance;
-        const [tr, tg, tb] = light.tint;
-        const radiance: Triple = [r * tr, g * tg, b * tb];
-        shape.style.setProperty("--light-colour", brightnessFromLinear(radiance).colour);
-        shape.classList.toggle("light-off", light.gain === 0);
+        shape.style.setProperty("--light-colour", levelOfLight(light).colour);
+        shape.classList.toggle("light-off", !lightsNow(light, this.lights.all));
         shape.classList.toggle("selected", id === this.lights.selected);
         shape.setAttribute(
             "aria-label",
-            `Light ${id}: radius ${amountText(light.angular_radius_degrees)} degrees, ` +
+            `Light ${nameOfLight(id, light)}: radius ${amountText(light.angular_radius_degrees)} degrees, ` +
                 `azimuth ${Math.round(centre.u * 360 - 180)}, ` +
                 `elevation ${Math.round(90 - centre.v * 180)} degrees`,
         );

@@ -3,9 +3,10 @@
  * of the environment and of the one blended with it. Display-referred: a picture to find one's
  * way in, not to measure.
  */
+import { linearFromSrgb, srgbFromLinear } from "./display";
 import { directionFromPosition } from "./lat_long";
 import { conjugate, matrixFromQuaternion } from "./rotation";
-import type { Quaternion } from "./wire/state";
+import type { Quaternion, RoomState, Triple } from "./wire/state";
 
 export const kPictureWidth = 320;
 export const kPictureHeight = 160;
@@ -13,6 +14,12 @@ export const kPictureHeight = 160;
 export interface PictureSource {
     pixels: ImageData;
     weight: number;
+}
+
+/** What environment and blend are multiplied by: zero while a light is solo. */
+export function environmentScale({ environment, lights }: RoomState): Triple {
+    if (Object.values(lights).some((light) => light.solo)) return [0, 0, 0];
+    return environment.tint.map((part) => part * environment.gain) as Triple;
 }
 
 export class LightPicture {
@@ -29,8 +36,8 @@ export class LightPicture {
         }
     }
 
-    /** The weights of `sources` sum to 1; all have the same size. */
-    draw(sources: PictureSource[], rotation: Quaternion): ImageData {
+    /** The weights of `sources` sum to 1; all have the same size. `scale` is linear. */
+    draw(sources: PictureSource[], rotation: Quaternion, scale: Triple): ImageData {
         const { data } = this.image;
         data.fill(0);
         for (let i = 3; i < data.length; i += 4) data[i] = 255;
@@ -48,7 +55,23 @@ export class LightPicture {
             const row = (0.5 - Math.asin(Math.min(1, Math.max(-1, sy))) / Math.PI) * height;
             this.addSample(out, sources, column, row, width, height);
         }
+        this.multiply(scale);
         return this.image;
+    }
+
+    private multiply(scale: Triple): void {
+        if (scale.every((part) => part === 1)) return;
+        const codes = scale.map((part) =>
+            Uint8Array.from({ length: 256 }, (_, code) =>
+                Math.round(
+                    255 * srgbFromLinear(Math.min(1, part * linearFromSrgb(code / 255))),
+                ),
+            ),
+        );
+        const { data } = this.image;
+        for (let i = 0; i < data.length; ++i) {
+            if (i % 4 < 3) data[i] = codes[i % 4]![data[i]!]!;
+        }
     }
 
     /** Bilinear; wraps across, stops at the poles. */

@@ -1,6 +1,6 @@
 import "./style/index.css";
 import { Api } from "./api";
-import { byId, isTyping } from "./dom";
+import { byId, isTyping, setText } from "./dom";
 import { turnLight } from "./image_drag";
 import { Notices } from "./notices";
 import { defaultRoom, type Place, placeFromAddress, sessionAddress } from "./place";
@@ -19,14 +19,20 @@ const kGestures: Gesture[] = [
     { hand: "Shift + drag", words: "turn and tip the light" },
     { hand: "Alt + wheel", words: "roll the light" },
     { hand: "Wheel", words: "exposure" },
+    { hand: "Ctrl + wheel, or pinch", words: "zoom" },
+    { hand: "Space + drag", words: "pan (or middle button, two fingers)" },
     { hand: "Double-click the map", words: "add a round light" },
     { hand: "Drag a light", words: "move it" },
     { hand: "Wheel on a light", words: "resize it" },
-    { hand: "Drop a file", words: "use an .hdr or .exr as the environment" },
+    { hand: "Double-click a light's row", words: "rename it" },
+    {
+        hand: "Drop a file",
+        words: "use an .hdr or .exr as the environment, a .json as the lighting",
+    },
 ];
 
 function shortcutsOf(studio: Studio): Shortcut[] {
-    const { session, exposure, lights, environments } = studio;
+    const { session, exposure, lights, environments, downloads, zoom } = studio;
     const step = (event: KeyboardEvent): number =>
         event.shiftKey ? kBigTurnDegrees : kTurnDegrees;
     const modes = ["environment", "colour", "transparent"] as const;
@@ -101,20 +107,24 @@ function shortcutsOf(studio: Studio): Shortcut[] {
                 if (lights.selected !== null) lights.remove(lights.selected);
             },
         },
-        { keys: ["f", "F"], words: "fit the image, or one to one", run: toggleFit },
+        { keys: ["f"], words: "fit the image, or one to one", run: () => zoom.toggleActual() },
+        { keys: ["F"], words: "full screen", run: toggleFullScreen },
+        { keys: ["+", "="], words: "zoom in", run: () => zoom.step(1) },
+        { keys: ["-"], words: "zoom out", run: () => zoom.step(-1) },
         { keys: ["h", "H"], words: "hide the panels", run: togglePanels },
+        { keys: ["s"], words: "save as PNG, as it shows", run: () => void downloads.savePng() },
         {
-            keys: ["s", "S"],
-            words: "save the settled image as PNG",
-            run: () => void studio.savePng(),
+            keys: ["S"],
+            words: "save as EXR, linear half floats",
+            run: () => void downloads.saveExr(),
         },
         { keys: ["?"], words: "this help", run: openHelp },
     ];
 }
 
-function toggleFit(): void {
-    const isActual = byId("stage").classList.toggle("actual-size");
-    byId("fit-button").setAttribute("aria-pressed", String(isActual));
+function toggleFullScreen(): void {
+    if (document.fullscreenElement !== null) void document.exitFullscreen();
+    else void byId("stage").requestFullscreen();
 }
 
 function togglePanels(): void {
@@ -130,15 +140,16 @@ async function chooseScene(api: Api, place: Place, picker: ScenePicker): Promise
     for (;;) {
         try {
             const scenes = await api.scenes();
-            const scene = place.scene ?? scenes[0]?.name ?? null;
+            const names = scenes.map(({ name }) => name);
+            const scene = place.scene ?? names[0] ?? null;
             picker.show(scenes, scene);
-            if (scene !== null) return scene;
-            byId("stage-veil").textContent = "The server has no scenes";
+            if (scene !== null && names.includes(scene)) return scene;
+            if (scene === null) setText(byId("stage-veil"), "The server has no scenes");
+            else picker.offerInsteadOf(scene, scenes);
         } catch (error) {
             // A scene that is named can be joined without the list.
             if (place.scene !== null) return place.scene;
-            byId("stage-veil").textContent =
-                error instanceof Error ? error.message : String(error);
+            setText(byId("stage-veil"), error instanceof Error ? error.message : String(error));
         }
         await new Promise((resolve) => setTimeout(resolve, kRetryMilliseconds));
     }
@@ -149,9 +160,10 @@ async function start(): Promise<void> {
     const api = new Api(place.server, place.token);
     const scene = await chooseScene(api, place, new ScenePicker(api));
     const room = place.room ?? defaultRoom(scene);
+    byId("stage-veil").classList.remove("stage-veil-links");
     const studio = new Studio(
+        place,
         sessionAddress(place, scene, room),
-        place.mayUseGl,
         api,
         new Notices(byId("notices")),
     );
@@ -160,8 +172,18 @@ async function start(): Promise<void> {
     const shortcuts = shortcutsOf(studio);
     listenForShortcuts(shortcuts);
     fillHelp(byId("help-content"), kGestures, shortcuts);
-    byId("save-button").addEventListener("click", () => void studio.savePng());
-    byId("fit-button").addEventListener("click", toggleFit);
+    for (const [id, save] of [
+        ["save-png", () => void studio.downloads.savePng()],
+        ["save-exr", () => void studio.downloads.saveExr()],
+        ["save-lighting", () => studio.downloads.saveLighting()],
+    ] as const) {
+        byId(id).addEventListener("click", () => {
+            byId("save-menu").hidePopover();
+            save();
+        });
+    }
+    byId("fit-button").addEventListener("click", () => studio.zoom.toggleActual());
+    byId("full-screen-button").addEventListener("click", toggleFullScreen);
     byId("add-light-button").addEventListener("click", () => void studio.lights.add());
     studio.start();
 }
@@ -180,17 +202,6 @@ window.addEventListener("pointerup", () => {
     }
 });
 
-/** "One to one" is in pixels of the screen; moving to another screen or zooming changes them. */
-function followPixelRatio(): void {
-    document.body.style.setProperty("--pixel-ratio", String(devicePixelRatio));
-    matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener(
-        "change",
-        followPixelRatio,
-        { once: true },
-    );
-}
-
-followPixelRatio();
 start().catch((error: unknown) => {
     byId("stage-veil").textContent = error instanceof Error ? error.message : String(error);
 });

@@ -29,11 +29,3 @@ export async function pngFromSettled(
         );
     });
 }
-
-export function saveAs(blob: Blob, fileName: string): void {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(blob);
-    link.download = fileName;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-}

@@ -1,45 +1,65 @@
-/** The pixels of environments' preview pictures, fetched once each. */
-import type { Api } from "./api";
+/** The pixels of environments' preview pictures, fetched once for every version of a map. */
+import type { Api, EnvironmentEntry } from "./api";
 import { Signal } from "./signal";
+
+interface Preview {
+    /** Of the map, as the server's list had it when this was fetched. */
+    version: number;
+    pixels: ImageData | "loading" | "missing";
+}
 
 export class PreviewStore {
     readonly loaded = new Signal<string>();
-    private readonly pixels = new Map<string, ImageData | "loading" | "missing">();
+    private readonly previews = new Map<string, Preview>();
+    private versions = new Map<string, number>();
 
     constructor(private readonly api: Api) {}
 
+    /** What the server has at present: pictures of other versions are fetched anew when asked for. */
+    setEntries(entries: EnvironmentEntry[]): void {
+        this.versions = new Map(entries.map(({ name, version }) => [name, version ?? 0]));
+        for (const [name, { version }] of [...this.previews]) {
+            if (this.versionOf(name) !== version) this.forget(name);
+        }
+    }
+
     /** Null until `loaded` has named it, and for ever where there is no preview. */
     get(name: string): ImageData | null {
-        const known = this.pixels.get(name);
+        const known = this.previews.get(name);
         if (known === undefined) {
-            this.pixels.set(name, "loading");
-            void this.load(name);
+            const preview: Preview = { version: this.versionOf(name), pixels: "loading" };
+            this.previews.set(name, preview);
+            void this.load(name, preview);
+            return null;
         }
-        return known instanceof ImageData ? known : null;
+        return known.pixels instanceof ImageData ? known.pixels : null;
     }
 
-    /** For an upload that replaces an environment of the same name. */
+    /** The map of this name has been replaced. */
     forget(name: string): void {
-        this.pixels.delete(name);
+        this.previews.delete(name);
     }
 
-    private async load(name: string): Promise<void> {
-        const image = new Image();
-        image.crossOrigin = "anonymous";
-        image.src = this.api.previewAddress(name);
+    private versionOf(name: string): number {
+        return this.versions.get(name) ?? 0;
+    }
+
+    private async load(name: string, preview: Preview): Promise<void> {
         try {
-            await image.decode();
+            const bitmap = await this.api.preview(name);
+            const canvas = document.createElement("canvas");
+            canvas.width = bitmap.width;
+            canvas.height = bitmap.height;
+            const context = canvas.getContext("2d", { willReadFrequently: true });
+            if (context === null) throw new Error("this browser offers no 2-D canvas");
+            context.drawImage(bitmap, 0, 0);
+            preview.pixels = context.getImageData(0, 0, canvas.width, canvas.height);
+            bitmap.close();
         } catch {
-            this.pixels.set(name, "missing");
+            preview.pixels = "missing";
             return;
         }
-        const canvas = document.createElement("canvas");
-        canvas.width = image.naturalWidth;
-        canvas.height = image.naturalHeight;
-        const context = canvas.getContext("2d", { willReadFrequently: true });
-        if (context === null) return;
-        context.drawImage(image, 0, 0);
-        this.pixels.set(name, context.getImageData(0, 0, canvas.width, canvas.height));
-        this.loaded.send(name);
+        // Another version may have been asked for meanwhile.
+        if (this.previews.get(name) === preview) this.loaded.send(name);
     }
 }

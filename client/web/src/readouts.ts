@@ -35,22 +35,22 @@ export class Readouts {
     private readonly revision = byId("figure-revision");
     private readonly resolution = byId("figure-resolution");
     private readonly rate = new RateMeter();
-    private received: ImageHeader | null = null;
     private receivedAt = 0;
     private clock = 0;
+    private zoomWords = "";
 
     constructor(
         private readonly timer: EditTimer,
         private readonly plot: ErrorPlot,
         private readonly markOf: () => MarkKind,
+        /** Header of the image on the canvas. */
+        private readonly shown: () => ImageHeader | null,
     ) {}
 
     frameReceived(header: ImageHeader, bytes: number, now: number): void {
         this.rate.add(now, bytes);
-        this.received = header;
         this.receivedAt = now;
         this.plot.add(header, now);
-        this.refreshMark();
         if (this.clock === 0) {
             this.refresh();
             this.clock = window.setInterval(() => this.refresh(), kRefreshMilliseconds);
@@ -58,41 +58,46 @@ export class Readouts {
     }
 
     clear(): void {
-        this.received = null;
         this.plot.clear();
         this.refresh();
     }
 
-    refreshMark(): void {
+    /** Mark and figures of the image that shows: always of the same one. */
+    refreshImage(): void {
         const kind = this.markOf();
         if (this.mark.dataset["kind"] !== kind) {
             this.mark.dataset["kind"] = kind;
             setText(this.markWords, kMarkWords[kind]);
         }
+        const shown = this.shown();
+        if (shown === null) return;
+        setText(this.error, percentText(shown.statedError));
+        setText(
+            this.pending,
+            shown.exact
+                ? "all coefficients"
+                : `${thousandsText(shown.coefficientsPending)} to come`,
+        );
+        setText(this.relight, millisecondsText(shown.relightMilliseconds));
+        setText(this.encode, `encode ${millisecondsText(shown.encodeMilliseconds)}`);
+        setText(this.revision, thousandsText(shown.revision));
+        setText(this.resolution, `${shown.width} × ${shown.height}${this.zoomWords}`);
+    }
+
+    /** In screen pixels an image pixel. */
+    setZoom(words: string): void {
+        this.zoomWords = ` · ${words}`;
+        this.refreshImage();
     }
 
     private refresh(): void {
         const now = performance.now();
-        this.refreshMark();
+        this.refreshImage();
         const { count, amount } = this.rate.read(now);
         setText(this.images, String(count));
         setText(this.bytes, bytesText(amount));
         setText(this.editMedian, millisecondsText(this.timer.medianMilliseconds));
         setText(this.editLatest, `last ${millisecondsText(this.timer.latestMilliseconds)}`);
-        const { received } = this;
-        if (received !== null) {
-            setText(this.error, percentText(received.statedError));
-            setText(
-                this.pending,
-                received.exact
-                    ? "all coefficients"
-                    : `${thousandsText(received.coefficientsPending)} to come`,
-            );
-            setText(this.relight, millisecondsText(received.relightMilliseconds));
-            setText(this.encode, `encode ${millisecondsText(received.encodeMilliseconds)}`);
-            setText(this.revision, thousandsText(received.revision));
-            setText(this.resolution, `${received.width} × ${received.height}`);
-        }
         if (now - this.receivedAt > kQuietMilliseconds) {
             clearInterval(this.clock);
             this.clock = 0;

@@ -2,13 +2,17 @@
 import type { Api, SceneEntry } from "./api";
 import { byId, make, setText } from "./dom";
 import { bytesText } from "./format";
+import { nearNames } from "./near_names";
 import { addressOfScene } from "./place";
+
+const kMostNamed = 12;
 
 export class ScenePicker {
     private readonly button = byId<HTMLButtonElement>("scene-button");
     private readonly name = byId("scene-name");
     private readonly dialog = byId<HTMLDialogElement>("scene-dialog");
     private readonly list = byId("scene-list");
+    private saidInstead: string | null = null;
 
     constructor(private readonly api: Api) {
         this.button.addEventListener("click", () => this.dialog.showModal());
@@ -23,8 +27,31 @@ export class ScenePicker {
         this.button.disabled = scenes.length === 0;
     }
 
-    open(): void {
-        this.dialog.showModal();
+    /** Says that there is no such scene, and what there is, the near names first. */
+    offerInsteadOf(unknown: string, scenes: SceneEntry[]): void {
+        const names = scenes.map(({ name }) => name);
+        const near = nearNames(unknown, names);
+        const linkTo = (name: string): HTMLElement =>
+            make("a", "", { href: addressOfScene(new URL(location.href), name) }, name);
+        const list = (of: string[]): (Node | string)[] =>
+            of
+                .slice(0, kMostNamed)
+                .flatMap((name, i) => (i > 0 ? [", ", linkTo(name)] : [linkTo(name)]));
+        const words: (Node | string)[] = [`There is no scene “${unknown}” here. `];
+        if (near.length > 0) words.push("Did you mean ", ...list(near), "? ");
+        words.push(
+            names.length > 0 ? "There is: " : "This server has no scenes.",
+            ...list(names),
+        );
+        if (names.length > kMostNamed) words.push(` and ${names.length - kMostNamed} more`);
+        const veil = byId("stage-veil");
+        if (this.saidInstead === names.join()) return; // links stay under the pointer
+        this.saidInstead = names.join();
+        veil.classList.add("stage-veil-links");
+        veil.replaceChildren(...words);
+        setText(this.name, unknown);
+        byId("status").dataset["kind"] = "refused";
+        setText(byId("status-words"), "There is no such scene");
     }
 
     private makeItem(scene: SceneEntry, current: string | null): HTMLElement {

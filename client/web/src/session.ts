@@ -31,6 +31,8 @@ export class Session {
     readonly opened = new Signal<Opening>();
     /** The state to show has changed: by the server or by an edit of this page. */
     readonly stateChanged = new Signal<RoomState>();
+    /** The patch of an edit that the server has taken, of whoever made it. */
+    readonly changed = new Signal<JsonObject>();
     readonly viewersChanged = new Signal<number>();
     readonly frameReceived = new Signal<ArrayBuffer>();
     readonly refused = new Signal<Refusal>();
@@ -64,6 +66,11 @@ export class Session {
         return this.shared?.lightRevision ?? 0;
     }
 
+    /** An edit of the light, more than of `display`, is unsent or unconfirmed. */
+    get hasPendingLight(): boolean {
+        return this.shared?.hasPendingLight ?? false;
+    }
+
     /** No edit of this page is unsent or unconfirmed. */
     get isSettled(): boolean {
         return this.shared !== null && !this.shared.hasPending;
@@ -89,6 +96,32 @@ export class Session {
         this.shared?.queue(patch);
         this.edits.push(patch);
         this.publishState();
+    }
+
+    /**
+     * Resolves when every edit asked for so far is confirmed: to null, or to what refused one
+     * meanwhile, or to "lost" where the connection ends first.
+     */
+    settled(): Promise<Refusal | "lost" | null> {
+        return new Promise((resolve) => {
+            let refusal: Refusal | null = null;
+            const stops: (() => void)[] = [];
+            const check = (): void => {
+                const isLost = this.status.kind !== "open";
+                if (!isLost && !this.isSettled) return;
+                for (const stop of stops) stop();
+                resolve(isLost ? "lost" : refusal);
+            };
+            stops.push(
+                this.refused.listen((message) => {
+                    if (message.edit_id !== undefined) refusal = message;
+                    check();
+                }),
+                this.stateChanged.listen(check),
+                this.statusChanged.listen(check),
+            );
+            check();
+        });
     }
 
     acknowledge(sequence: number): void {
@@ -139,6 +172,7 @@ export class Session {
             this.publishState();
         } else if (message.type === "change") {
             this.shared?.confirm(message);
+            this.changed.send(message.patch);
             if (message.edit_id !== undefined) {
                 this.editConfirmed.send({ id: message.edit_id, revision: message.revision });
             }
@@ -149,9 +183,9 @@ export class Session {
             if (message.edit_id !== undefined) {
                 this.shared?.refuse(message.edit_id);
                 this.editDropped.send(message.edit_id);
-                this.publishState();
             }
             this.refused.send(message);
+            if (message.edit_id !== undefined) this.publishState();
         }
     }
 

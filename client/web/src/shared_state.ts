@@ -37,6 +37,13 @@ export class SharedState {
         return this.queued !== null || this.pending.length > 0;
     }
 
+    /** One of those concerns more than `display`. */
+    get hasPendingLight(): boolean {
+        const patches = this.pending.map(({ patch }) => patch);
+        if (this.queued !== null) patches.push(this.queued);
+        return patches.some(concernsLight);
+    }
+
     /** An edit that waits to be sent. */
     queue(patch: JsonObject): void {
         this.queued = this.queued === null ? patch : composePatches(this.queued, patch);
@@ -53,9 +60,7 @@ export class SharedState {
     confirm(change: Change): void {
         this.confirmed = patched(this.confirmed, change.patch);
         this.revision = change.revision;
-        if (Object.keys(change.patch).some((key) => key !== "display")) {
-            this.lightRevision = change.revision;
-        }
+        if (concernsLight(change.patch)) this.lightRevision = change.revision;
         const id = change.edit_id;
         if (id !== undefined) this.pending = this.pending.filter((edit) => edit.id > id);
         this.overlay();
@@ -79,20 +84,7 @@ function patched(state: RoomState, patch: JsonObject): RoomState {
     return applyPatch(state as unknown as Json, patch) as unknown as RoomState;
 }
 
-/** The edit that takes a room from one state to another. */
-export function patchToState(from: RoomState, to: RoomState): JsonObject {
-    const removed = Object.keys(from.lights).filter((id) => !(id in to.lights));
-    return {
-        ...(to as unknown as JsonObject),
-        blend: { name: to.blend.name ?? null, amount: to.blend.amount },
-        lights: {
-            ...(to.lights as unknown as JsonObject),
-            ...Object.fromEntries(removed.map((id) => [id, null])),
-        },
-        budget: {
-            milliseconds: to.budget.milliseconds ?? null,
-            coefficients: to.budget.coefficients ?? null,
-            target_error: to.budget.target_error,
-        },
-    };
+/** More than `display` is in the patch. */
+export function concernsLight(patch: JsonObject): boolean {
+    return Object.keys(patch).some((key) => key !== "display");
 }

@@ -1,26 +1,16 @@
-/** How the scene is shown and how it is relit: display, background, method, priority, budget. */
-import { Pane } from "tweakpane";
-import { hexFromLinear, linearFromHex } from "./colour";
-import { kMaxExposureStops, kMinExposureStops } from "./display";
-import type { Exposure } from "./exposure";
-import { percentText, stopsText } from "./format";
+/** How the scene is relit: method, priority, budget. Few need it, so it is folded away. */
+import { type FolderApi, Pane } from "tweakpane";
+import { make } from "./dom";
+import { percentText } from "./format";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
-import type {
-    BackgroundMode,
-    JsonObject,
-    Method,
-    Priority,
-    RoomState,
-    Tone,
-} from "./wire/state";
+import type { JsonObject, Method, Priority, RoomState } from "./wire/state";
 
 type BudgetKind = "milliseconds" | "coefficients";
 type BudgetRows = { [kind in BudgetKind]: { hidden: boolean } };
 
-/** The slider's; any value the server takes can be typed. */
-const kUsualStops = 8;
+/** The sliders'; any value the server takes can be typed. */
 const kMostMilliseconds = 50;
 const kMostCoefficients = 2000;
 const kDefaultMilliseconds = 8;
@@ -28,10 +18,6 @@ const kDefaultCoefficients = 100;
 
 export class StrategyPanel {
     private readonly model = {
-        exposure: 0,
-        tone: "filmic" as Tone,
-        background: "environment" as BackgroundMode,
-        colour: "#000000",
         method: "guarded" as Method,
         priority: "benefit" as Priority,
         budget: "milliseconds" as BudgetKind,
@@ -40,7 +26,6 @@ export class StrategyPanel {
         target: 0,
     };
     private readonly pane: Pane;
-    private readonly backgroundColour: { hidden: boolean };
     private readonly amounts: BudgetRows;
     private syncing = false;
     private readonly syncSoon = onceAFrame(() => {
@@ -51,89 +36,54 @@ export class StrategyPanel {
     constructor(
         root: HTMLElement,
         private readonly session: Session,
-        private readonly exposure: Exposure,
     ) {
         this.pane = new Pane({ container: root });
-        this.addDisplayBindings();
-        this.backgroundColour = this.addBackgroundBindings();
-        this.amounts = this.addStrategyBindings();
+        const folder = this.pane.addFolder({ title: "Advanced", expanded: false });
+        this.addStrategyBindings(folder);
+        this.amounts = this.addBudgetBindings(folder);
+        this.addTargetBinding(folder);
         labelFields(root);
         session.stateChanged.listen(() => this.syncSoon());
-        exposure.changed.listen(() => this.syncSoon());
     }
 
-    private addDisplayBindings(): void {
+    private addStrategyBindings(folder: FolderApi): void {
         const { model } = this;
-        const folder = this.pane.addFolder({ title: "Display" });
-        folder
-            .addBinding(model, "exposure", {
-                label: "exposure EV",
-                min: -kUsualStops,
-                max: kUsualStops,
-                step: 0.01,
-                format: stopsText,
-            })
-            .on("change", () => {
-                if (!this.syncing) this.exposure.set({ exposure_stops: model.exposure });
-            });
-        folder
-            .addBinding(model, "tone", { options: { filmic: "filmic", linear: "linear" } })
-            .on("change", () => {
-                if (!this.syncing) this.exposure.set({ tone: model.tone });
-            });
-    }
-
-    private addBackgroundBindings(): { hidden: boolean } {
-        const { model } = this;
-        const folder = this.pane.addFolder({ title: "Background" });
-        folder
-            .addBinding(model, "background", {
-                label: "show",
-                options: {
-                    environment: "environment",
-                    colour: "colour",
-                    nothing: "transparent",
-                },
-            })
-            .on("change", () => this.apply({ background: { mode: model.background } }));
-        const colour = folder.addBinding(model, "colour", { view: "color" });
-        colour.on("change", () => {
-            this.apply({ background: { colour: linearFromHex(model.colour) } });
+        const method = folder.addBinding(model, "method", {
+            options: {
+                guarded: "guarded",
+                "per-band incremental": "pbi",
+                incremental: "bi",
+                "non-linear": "nwa",
+            },
         });
-        return colour;
+        method.on("change", () => this.apply({ strategy: { method: model.method } }));
+        explain(
+            method,
+            "Which parts of the light each image adds. Guarded begins anew only where that " +
+                "brings the image nearer.",
+        );
+        const priority = folder.addBinding(model, "priority", {
+            options: {
+                "benefit per byte": "benefit",
+                transport: "transport",
+                area: "area",
+                magnitude: "none",
+            },
+        });
+        priority.on("change", () => this.apply({ strategy: { priority: model.priority } }));
+        explain(priority, "What comes first while the light moves; at rest all of it comes.");
     }
 
-    private addStrategyBindings(): BudgetRows {
+    private addBudgetBindings(folder: FolderApi): BudgetRows {
         const { model } = this;
-        const folder = this.pane.addFolder({ title: "Relighting" });
-        folder
-            .addBinding(model, "method", {
-                options: {
-                    guarded: "guarded",
-                    "per-band incremental": "pbi",
-                    incremental: "bi",
-                    "non-linear": "nwa",
-                },
-            })
-            .on("change", () => this.apply({ strategy: { method: model.method } }));
-        folder
-            .addBinding(model, "priority", {
-                options: {
-                    "benefit per byte": "benefit",
-                    transport: "transport",
-                    area: "area",
-                    magnitude: "none",
-                },
-            })
-            .on("change", () => this.apply({ strategy: { priority: model.priority } }));
-        folder
-            .addBinding(model, "budget", {
-                options: { "time per image": "milliseconds", coefficients: "coefficients" },
-            })
-            .on("change", () => {
-                this.apply({ budget: this.budgetPatch() });
-                this.showAmount();
-            });
+        const kind = folder.addBinding(model, "budget", {
+            options: { "time per image": "milliseconds", coefficients: "coefficients" },
+        });
+        kind.on("change", () => {
+            this.apply({ budget: this.budgetPatch() });
+            this.showAmount();
+        });
+        explain(kind, "How much an image may cost: less is quicker and further from exact.");
         const milliseconds = folder
             .addBinding(model, "milliseconds", {
                 label: "ms",
@@ -150,16 +100,20 @@ export class StrategyPanel {
                 step: 1,
             })
             .on("change", () => this.apply({ budget: this.budgetPatch() }));
-        folder
-            .addBinding(model, "target", {
-                label: "stop at",
-                options: Object.fromEntries([
-                    ["exact", 0],
-                    ...[1e-4, 1e-3, 0.01, 0.05].map((error) => [percentText(error), error]),
-                ]) as { [text: string]: number },
-            })
-            .on("change", () => this.apply({ budget: { target_error: model.target } }));
         return { milliseconds, coefficients };
+    }
+
+    private addTargetBinding(folder: FolderApi): void {
+        const { model } = this;
+        const target = folder.addBinding(model, "target", {
+            label: "stop at",
+            options: Object.fromEntries([
+                ["exact", 0],
+                ...[1e-4, 1e-3, 0.01, 0.05].map((error) => [percentText(error), error]),
+            ]) as { [text: string]: number },
+        });
+        target.on("change", () => this.apply({ budget: { target_error: model.target } }));
+        explain(target, "The error at which a resting image counts as settled.");
     }
 
     private budgetPatch(): JsonObject {
@@ -180,15 +134,6 @@ export class StrategyPanel {
 
     private sync(state: RoomState): void {
         const { model } = this;
-        const { display } = this.exposure;
-        model.exposure = Math.min(
-            kMaxExposureStops,
-            Math.max(kMinExposureStops, display.exposure_stops),
-        );
-        model.tone = display.tone;
-        model.background = state.background.mode;
-        model.colour = hexFromLinear(state.background.colour);
-        this.backgroundColour.hidden = model.background !== "colour";
         model.method = state.strategy.method;
         model.priority = state.strategy.priority;
         const { milliseconds, coefficients, target_error } = state.budget;
@@ -201,4 +146,9 @@ export class StrategyPanel {
         this.pane.refresh();
         this.syncing = false;
     }
+}
+
+/** A line of words below a control. */
+function explain({ element }: { element: HTMLElement }, words: string): void {
+    element.append(make("p", "blade-note", {}, words));
 }

@@ -1,7 +1,9 @@
 /** The page put together: one session, what it shows, and what acts on it. */
 import type { Api } from "./api";
 import { AreaLights } from "./area_lights";
+import { DisplayPanel } from "./display_panel";
 import { byId, setText } from "./dom";
+import { Downloads } from "./downloads";
 import { EditTimer } from "./edit_timer";
 import { EnvironmentList } from "./environment_list";
 import { EnvironmentPanel } from "./environment_panel";
@@ -10,21 +12,27 @@ import { Exposure } from "./exposure";
 import { ImageDecoder } from "./image_decoder";
 import { listenOnImage } from "./image_drag";
 import { ImageView } from "./image_view";
+import { ImageZoom } from "./image_zoom";
 import { inspect, type Inspection } from "./inspection";
 import { LightMap } from "./light_map";
+import { LightReturn } from "./light_return";
+import type { Lighting } from "./lighting";
 import { LightsPanel } from "./lights_panel";
 import type { Notices } from "./notices";
-import { pngFromSettled, saveAs } from "./png";
+import { medianRadiance } from "./median_radiance";
+import type { Place } from "./place";
 import { PreviewStore } from "./preview_store";
 import { type MarkKind, Readouts } from "./readouts";
 import { Session } from "./session";
-import { patchToState } from "./shared_state";
+import { concernsLight } from "./shared_state";
+import { SoloSign } from "./solo_sign";
 import { StatusLine } from "./status_line";
 import { StrategyPanel } from "./strategy_panel";
 import { Upload } from "./upload";
+import { UploadStore } from "./upload_store";
+import { isObject } from "./wire/merge_patch";
 import { titleOf } from "./wire/message";
 import { kEncodingJpeg, type ImageHeader } from "./wire/image_header";
-import type { RoomState } from "./wire/state";
 
 /** So long after an edit the light still counts as moving. */
 const kMovingMilliseconds = 250;
@@ -35,54 +43,63 @@ export class Studio {
     readonly exposure: Exposure;
     readonly lights: AreaLights;
     readonly environments: EnvironmentList;
+    readonly downloads: Downloads;
+    readonly zoom: ImageZoom;
     private readonly decoder: ImageDecoder;
     private readonly readouts: Readouts;
     private readonly timer = new EditTimer();
     private readonly environmentPanel: EnvironmentPanel;
     private readonly previews: PreviewStore;
+    private readonly lightReturn: LightReturn;
     private movedAt = -Infinity;
     private knownRevision = -1;
 
     constructor(
+        place: Place,
         address: string,
-        mayUseGl: boolean,
         private readonly api: Api,
         private readonly notices: Notices,
     ) {
         const session = new Session(address);
         this.session = session;
-        this.view = new ImageView(byId("image-frame"), mayUseGl);
+        this.view = new ImageView(byId("image-frame"), place.mayUseGl);
         this.decoder = new ImageDecoder(
             (sequence) => session.acknowledge(sequence),
             (header) => this.isWanted(header),
         );
         this.exposure = new Exposure(session, this.view);
-        this.lights = new AreaLights(session);
+        this.lights = new AreaLights(session, () => ({
+            medianRadiance:
+                this.view.settled === null ? null : medianRadiance(this.view.settled),
+            exposureStops: this.exposure.display.exposure_stops,
+        }));
+        this.downloads = new Downloads(session, this.view, this.exposure, notices);
         this.previews = new PreviewStore(api);
-        this.environments = new EnvironmentList(byId("environments"), api, session);
+        this.environments = new EnvironmentList(byId("environments"), this.previews, session);
         this.environmentPanel = new EnvironmentPanel(byId("environment-controls"), session);
         new LightMap(byId("light-map"), session, this.lights, this.previews);
         new LightsPanel(byId("lights"), session, this.lights);
-        new StrategyPanel(byId("strategy-controls"), session, this.exposure);
+        new DisplayPanel(byId("display-controls"), session, this.exposure);
+        new StrategyPanel(byId("strategy-controls"), session);
         new StatusLine(session);
-        this.readouts = new Readouts(this.timer, new ErrorPlot(byId("error-plot")), () =>
-            this.mark(),
+        new SoloSign(session, this.lights);
+        this.readouts = new Readouts(
+            this.timer,
+            new ErrorPlot(byId("error-plot")),
+            () => this.mark(),
+            () => this.view.header,
         );
-        new Upload(
-            {
-                button: byId("upload-button"),
-                input: byId("upload-input"),
-                dropVeil: byId("drop-veil"),
-            },
-            api,
-            session,
-            notices,
-            async ({ name }) => {
-                this.previews.forget(name);
-                await this.loadEnvironments(true);
-                this.environments.choose(name);
-            },
+        this.zoom = new ImageZoom(
+            byId("stage"),
+            byId("image-frame"),
+            () => this.view.header?.width ?? 0,
+            (words) => this.readouts.setZoom(words),
         );
+        const uploads = new UploadStore(place.server);
+        this.lightReturn = new LightReturn(session, api, uploads, notices, () =>
+            this.loadEnvironments(),
+        );
+        this.listenForFiles(uploads);
         listenOnImage(byId("image-frame"), session, this.exposure);
         this.listenToSession();
         this.listenToDecoder();
@@ -101,26 +118,11 @@ export class Studio {
         );
     }
 
-    async savePng(): Promise<void> {
-        const { settled } = this.view;
-        const { snapshot, state } = this.session;
-        if (settled === null || snapshot === null || state === null) {
-            this.notices.show({
-                tone: "info",
-                title: "The image can be saved once it has settled",
-            });
-            return;
-        }
-        const blob = await pngFromSettled(settled, this.exposure.display);
-        const name = `${snapshot.scene.name}-${state.environment.name}-r${settled.header.revision}`;
-        saveAs(blob, `${name}.png`);
-        this.notices.show({ tone: "info", title: `Saved ${name}.png` });
-    }
-
-    async loadEnvironments(replaced = false): Promise<void> {
+    async loadEnvironments(): Promise<void> {
         try {
             const entries = await this.api.environments();
-            this.environments.show(entries, replaced);
+            this.previews.setEntries(entries);
+            this.environments.show(entries);
             this.environmentPanel.setEnvironments(entries);
         } catch (error) {
             const title = error instanceof Error ? error.message : String(error);
@@ -136,8 +138,7 @@ export class Studio {
             header.exact &&
             this.view.settled !== null &&
             header.revision >= this.session.lightRevision &&
-            this.session.isSettled &&
-            !this.exposure.isPending
+            this.session.isSettled
         );
     }
 
@@ -146,7 +147,8 @@ export class Studio {
         if (this.isExact) return "exact";
         const { header, settled } = this.view;
         if (header === null) return "waiting";
-        const isCurrent = header.revision >= this.session.lightRevision;
+        const isCurrent =
+            header.revision >= this.session.lightRevision && !this.session.hasPendingLight;
         if (settled !== null && isCurrent) return header.exact ? "exact" : "settled";
         return performance.now() - this.movedAt < kMovingMilliseconds ? "moving" : "converging";
     }
@@ -174,22 +176,27 @@ export class Studio {
             setText(byId("room-name"), room);
             document.title = `${scene.name} – Relume`;
             void this.loadEnvironments();
-            if (forgotten !== null) this.offerBack(forgotten);
+            if (forgotten !== null) this.lightReturn.offer(forgotten);
         });
-        session.stateChanged.listen((state) => {
+        session.stateChanged.listen(() => {
             if (session.lightRevision !== this.knownRevision || !session.isSettled) {
                 this.knownRevision = session.lightRevision;
                 this.movedAt = performance.now();
             }
-            const { names } = this.environments;
-            if (names.length > 0 && !names.includes(state.environment.name)) {
-                void this.loadEnvironments();
-            }
-            this.readouts.refreshMark();
+            this.readouts.refreshImage();
+        });
+        // A map that is named again may be another one of that name.
+        session.changed.listen((patch) => {
+            const named = [patch["environment"], patch["blend"]].map((section) =>
+                isObject(section) ? section["name"] : undefined,
+            );
+            const maps = named.filter((name): name is string => typeof name === "string");
+            for (const name of maps) this.previews.forget(name);
+            if (maps.length > 0) void this.loadEnvironments();
         });
         session.statusChanged.listen(({ kind }) => {
             byId("stage").dataset["status"] = kind;
-            this.readouts.refreshMark();
+            this.readouts.refreshImage();
         });
         session.viewersChanged.listen((count) => setText(byId("viewers"), String(count)));
         session.frameReceived.listen((frame) => {
@@ -204,9 +211,7 @@ export class Studio {
         });
         session.editSent.listen(({ id, patch }) => {
             // Display shows at once, whatever the server does with it.
-            if (Object.keys(patch).some((key) => key !== "display")) {
-                this.timer.editSent(id, performance.now());
-            }
+            if (concernsLight(patch)) this.timer.editSent(id, performance.now());
         });
         session.editConfirmed.listen(({ id, revision }) =>
             this.timer.editConfirmed(id, revision),
@@ -214,26 +219,37 @@ export class Studio {
         session.editDropped.listen((id) => this.timer.editDropped(id));
     }
 
-    /** A server that was started anew begins the room anew; this page still knows the light. */
-    private offerBack(forgotten: RoomState): void {
-        this.notices.show({
-            tone: "warning",
-            title: "The server has begun this room anew",
-            action: {
-                words: "Bring back the light as it was",
-                run: () => {
-                    const { state } = this.session;
-                    if (state !== null) this.session.edit(patchToState(state, forgotten));
-                },
+    private listenForFiles(uploads: UploadStore): void {
+        const elements = {
+            button: byId<HTMLButtonElement>("upload-button"),
+            input: byId<HTMLInputElement>("upload-input"),
+            dropVeil: byId("drop-veil"),
+        };
+        new Upload(elements, this.api, this.session, uploads, this.notices, {
+            uploaded: async ({ name }) => {
+                this.previews.forget(name);
+                await this.loadEnvironments();
+                this.environments.choose(name);
+                this.lightReturn.mapArrived(name);
             },
+            lightingRead: (lighting) => this.takeLighting(lighting),
         });
+    }
+
+    /** The display in a file is for whoever brought it, not for the room. */
+    private async takeLighting({ display, ...light }: Lighting): Promise<void> {
+        if (display !== undefined) this.exposure.set(display);
+        if (await this.lightReturn.bring(light)) {
+            this.notices.show({ tone: "info", title: "The room is lit as the file says" });
+        }
     }
 
     private listenToDecoder(): void {
         this.decoder.decoded.listen((image) => {
             this.view.show(image);
+            this.zoom.apply();
             this.timer.imageShown(image.header.revision, performance.now());
-            this.readouts.refreshMark();
+            this.readouts.refreshImage();
         });
         this.decoder.failed.listen((title) => this.notices.show({ tone: "error", title }));
     }

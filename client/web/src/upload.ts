@@ -1,16 +1,28 @@
-/** Bringing one's own light: a Radiance HDR or EXR file by button or by dropping it anywhere. */
+/**
+ * Files brought to the page, by button or by dropping them anywhere: a Radiance HDR or EXR file
+ * is uploaded and lights the scene; a lighting saved as JSON is taken over.
+ */
 import { type Api, ApiError, type UploadResult } from "./api";
 import { bytesText } from "./format";
+import { type Lighting, LightingError, lightingFromText } from "./lighting";
 import type { Notices } from "./notices";
 import { nameFromText } from "./place";
 import type { Session } from "./session";
+import type { UploadStore } from "./upload_store";
 
 const kDefaultLimitBytes = 64 * 1024 * 1024;
+/** A lighting of many lights is some tens of kilobytes. */
+const kMostLightingBytes = 1024 * 1024;
 
 export interface UploadElements {
     button: HTMLButtonElement;
     input: HTMLInputElement;
     dropVeil: HTMLElement;
+}
+
+export interface UploadListeners {
+    uploaded: (result: UploadResult) => Promise<void>;
+    lightingRead: (lighting: Lighting) => Promise<void>;
 }
 
 export class Upload {
@@ -20,20 +32,43 @@ export class Upload {
         private readonly elements: UploadElements,
         private readonly api: Api,
         private readonly session: Session,
+        private readonly store: UploadStore,
         private readonly notices: Notices,
-        private readonly uploaded: (result: UploadResult) => Promise<void>,
+        private readonly listeners: UploadListeners,
     ) {
         const { button, input } = elements;
         button.addEventListener("click", () => input.click());
         input.addEventListener("change", () => {
             const file = input.files?.[0];
             input.value = ""; // so that the same file can be chosen again
-            if (file !== undefined) void this.send(file);
+            if (file !== undefined) void this.take(file);
         });
         this.listenForDrop();
     }
 
-    async send(file: File): Promise<void> {
+    private async take(file: File): Promise<void> {
+        if (/\.json$/i.test(file.name)) await this.readLighting(file);
+        else await this.send(file, null);
+    }
+
+    private async readLighting(file: File): Promise<void> {
+        if (file.size > kMostLightingBytes) {
+            this.refuse(
+                `${file.name} is too large for a lighting`,
+                bytesText(file.size),
+                `at most ${bytesText(kMostLightingBytes)}`,
+            );
+            return;
+        }
+        try {
+            await this.listeners.lightingRead(lightingFromText(await file.text()));
+        } catch (error) {
+            if (!(error instanceof LightingError)) throw error;
+            this.refuse(`${file.name}: ${error.message}`, error.found, error.expected);
+        }
+    }
+
+    private async send(file: File, projection: string | null): Promise<void> {
         const name = nameFromText(file.name.replace(/\.(hdr|exr|pic|rgbe)$/i, ""));
         if (name === "") {
             this.refuse(
@@ -56,7 +91,8 @@ export class Upload {
         button.disabled = true;
         button.setAttribute("aria-busy", "true");
         try {
-            const result = await this.api.upload(name, file);
+            const result = await this.api.upload(name, file, projection);
+            await this.store.keep({ name: result.name, file, projection });
             if (result.warnings.length > 0) {
                 this.notices.show({
                     tone: "warning",
@@ -64,7 +100,8 @@ export class Upload {
                     details: result.warnings,
                 });
             }
-            await this.uploaded(result);
+            await this.listeners.uploaded(result);
+            if (projection === null) this.askForProjection(file, result);
         } catch (error) {
             if (!(error instanceof ApiError)) throw error;
             this.refuse(`${file.name}: ${error.message}`, error.found, error.expected);
@@ -72,6 +109,20 @@ export class Upload {
             button.disabled = false;
             button.removeAttribute("aria-busy");
         }
+    }
+
+    /** A square picture may be a mirror ball, or a lat-long map that was made square. */
+    private askForProjection(file: File, result: UploadResult): void {
+        if (result.projection !== "angular_map") return;
+        this.notices.show({
+            tone: "warning",
+            title: `${result.name} is square and was read as an angular map (a light probe)`,
+            details: ["If its top and bottom edges are the poles, it is lat-long."],
+            actions: [
+                { words: "Read it as lat-long", run: () => void this.send(file, "lat_long") },
+                { words: "It is an angular map", run: () => undefined },
+            ],
+        });
     }
 
     private refuse(title: string, found?: string, expected?: string): void {
@@ -102,7 +153,7 @@ export class Upload {
             this.depth = 0;
             dropVeil.hidden = true;
             const file = event.dataTransfer?.files[0];
-            if (file !== undefined) void this.send(file);
+            if (file !== undefined) void this.take(file);
         });
     }
 }

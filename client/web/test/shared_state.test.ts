@@ -1,8 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { patchToState, SharedState } from "../src/shared_state";
+import { SharedState } from "../src/shared_state";
 import type { Snapshot } from "../src/wire/message";
-import { applyPatch } from "../src/wire/merge_patch";
-import type { Json, RoomState } from "../src/wire/state";
+import type { RoomState } from "../src/wire/state";
 
 function stateWith(gain: number): RoomState {
     return {
@@ -87,21 +86,16 @@ describe("SharedState", () => {
     });
 });
 
-describe("patchToState", () => {
-    it("leads from any state to any other", () => {
-        const light = { direction: [0, 1, 0], angular_radius_degrees: 5 };
-        const lit = { ...stateWith(1), lights: { key: light, fill: light } };
-        const others = [
-            stateWith(3),
-            lit,
-            { ...stateWith(2), blend: { name: "night", amount: 0.5 }, lights: { fill: light } },
-            { ...stateWith(2), budget: { coefficients: 30, target_error: 0.1 } },
-        ] as unknown as RoomState[];
-        for (const from of others) {
-            for (const to of others) {
-                const patch = patchToState(from, to);
-                expect(applyPatch(from as unknown as Json, patch)).toEqual(to);
-            }
-        }
+describe("hasPendingLight", () => {
+    it("is about edits of the light on their way, not of display", () => {
+        const shared = open();
+        shared.queue({ display: { exposure_stops: 1 } });
+        expect([shared.hasPending, shared.hasPendingLight]).toEqual([true, false]);
+        shared.queue(gain(2));
+        expect(shared.hasPendingLight).toBe(true);
+        shared.expect(1, gain(2));
+        expect(shared.hasPendingLight).toBe(true);
+        shared.confirm({ type: "change", revision: 6, patch: gain(2), edit_id: 1 });
+        expect(shared.hasPendingLight).toBe(false);
     });
 });

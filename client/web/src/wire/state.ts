@@ -21,6 +21,13 @@ export interface AreaLight {
     radiance: Triple;
     gain: number;
     tint: Triple;
+    /** What people call it; without one it is called by its id. */
+    name?: string | null;
+    muted: boolean;
+    /** While any light is solo, only solo lights light. */
+    solo: boolean;
+    /** Lists show lights in ascending order, equals by id. */
+    order: number;
 }
 
 export type BackgroundMode = "environment" | "colour" | "transparent";
