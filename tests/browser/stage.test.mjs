@@ -129,6 +129,18 @@ describe("stage", { timeout: 240_000 }, () => {
         assert.deepEqual(await page.page.evaluate(() => window.seen), []);
     });
 
+    it("says beside exact what the bake is off by, as the scene list does", async () => {
+        const { scenes } = await suite.server.json("/api/scenes");
+        const page = await suite.room("bake-error");
+        const note = await page.page.locator("#mark-note").innerText();
+        const [{ bake_error: error }] = scenes;
+        assert.match(note, error === undefined ? /^$/ : /^bake ± \d.* %$/);
+        if (error !== undefined) {
+            const percent = Number(/[\d.]+/.exec(note)[0]);
+            assert.ok(Math.abs(percent - 100 * error) < 0.06 * percent, `${note}, ${error}`);
+        }
+    });
+
     it("fits its header and panels into a phone", async () => {
         const page = await suite.room("phone", phone);
         await page.page.keyboard.press("l");

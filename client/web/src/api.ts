@@ -69,10 +69,12 @@ export class Api {
     async upload(name: string, file: Blob, projection: string | null): Promise<UploadResult> {
         const query = new URLSearchParams({ name });
         if (projection !== null) query.set("projection", projection);
-        if (this.token !== null) query.set("token", this.token);
         const json = await this.request(`/api/environments?${query.toString()}`, {
             method: "POST",
-            headers: { "Content-Type": "application/octet-stream" },
+            headers: {
+                "Content-Type": "application/octet-stream",
+                ...(this.token === null ? {} : { Authorization: `Bearer ${this.token}` }),
+            },
             body: file,
         });
         return json as unknown as UploadResult;

@@ -13,6 +13,11 @@ export function percentText(fraction: number): string {
     return `${(fraction / 10 ** exponent).toFixed(1)}·10⁻${digits}`;
 }
 
+/** What an exact image is off by all the same; empty where the bake does not say. */
+export function bakeErrorText(error: number | undefined): string {
+    return error === undefined ? "" : `bake ± ${percentText(error)}`;
+}
+
 export function millisecondsText(milliseconds: number | null): string {
     if (milliseconds === null) return "–";
     if (milliseconds < 10) return milliseconds.toFixed(1);

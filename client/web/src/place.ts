@@ -30,7 +30,10 @@ export function nameFromText(text: string): string {
         .slice(0, 64);
 }
 
-/** Reads `?server=&scene=&room=&token=&painter=`; throws PlaceError naming the parameter that is wrong. */
+/**
+ * Reads `?server=&scene=&room=&token=&painter=`, and `#token=`, which no server gets to see in an
+ * address; throws PlaceError naming the parameter that is wrong.
+ */
 export function placeFromAddress(address: URL): Place {
     const named = (key: string): string | null => {
         const value = address.searchParams.get(key);
@@ -60,7 +63,9 @@ export function placeFromAddress(address: URL): Place {
         server,
         scene: named("scene"),
         room: named("room"),
-        token: address.searchParams.get("token"),
+        token:
+            new URLSearchParams(address.hash.slice(1)).get("token") ??
+            address.searchParams.get("token"),
         mayUseGl: address.searchParams.get("painter") !== "canvas2d",
     };
 }

@@ -2,7 +2,7 @@
 import { byId, setText } from "./dom";
 import type { EditTimer } from "./edit_timer";
 import type { ErrorPlot } from "./error_plot";
-import { bytesText, millisecondsText, percentText, thousandsText } from "./format";
+import { bakeErrorText, bytesText, millisecondsText, percentText, thousandsText } from "./format";
 import { RateMeter } from "./rate_meter";
 import type { ImageHeader } from "./wire/image_header";
 
@@ -24,6 +24,7 @@ const kQuietMilliseconds = 1500;
 export class Readouts {
     private readonly mark = byId("mark");
     private readonly markWords = byId("mark-words");
+    private readonly markNote = byId("mark-note");
     private readonly error = byId("figure-error");
     private readonly pending = byId("figure-pending");
     private readonly images = byId("figure-images");
@@ -45,6 +46,8 @@ export class Readouts {
         private readonly markOf: () => MarkKind,
         /** Header of the image on the canvas. */
         private readonly shown: () => ImageHeader | null,
+        /** Of the scene, where its bake states one. */
+        private readonly bakeError: () => number | undefined,
     ) {}
 
     frameReceived(header: ImageHeader, bytes: number, now: number): void {
@@ -69,6 +72,7 @@ export class Readouts {
             this.mark.dataset["kind"] = kind;
             setText(this.markWords, kMarkWords[kind]);
         }
+        setText(this.markNote, kind === "exact" ? bakeErrorText(this.bakeError()) : "");
         const shown = this.shown();
         if (shown === null) return;
         setText(this.error, percentText(shown.statedError));

@@ -1,7 +1,7 @@
 /** The scenes of the server with their thumbnails. Another scene is another room: a new page. */
 import type { Api, SceneEntry } from "./api";
 import { byId, make, setText } from "./dom";
-import { bytesText } from "./format";
+import { bakeErrorText, bytesText } from "./format";
 import { nearNames } from "./near_names";
 import { addressOfScene } from "./place";
 
@@ -70,7 +70,9 @@ export class ScenePicker {
                 "scene-facts",
                 {},
                 `${scene.width} × ${scene.height} · 6 × ${scene.face_resolution}² lights · ` +
-                    bytesText(scene.bytes),
+                    [bytesText(scene.bytes), bakeErrorText(scene.bake_error)]
+                        .filter((text) => text !== "")
+                        .join(" · "),
             ),
         );
         if (scene.name === current) link.setAttribute("aria-current", "true");

@@ -88,6 +88,7 @@ export class Studio {
             new ErrorPlot(byId("error-plot")),
             () => this.mark(),
             () => this.view.header,
+            () => session.snapshot?.scene.bake_error,
         );
         this.zoom = new ImageZoom(
             byId("stage"),

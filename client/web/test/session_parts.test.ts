@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Backoff } from "../src/backoff";
 import { EditTimer } from "../src/edit_timer";
-import { amountText, bytesText, percentText, stopsText } from "../src/format";
+import { amountText, bakeErrorText, bytesText, percentText, stopsText } from "../src/format";
 import {
     defaultRoom,
     nameFromText,
@@ -94,6 +94,7 @@ describe("place", () => {
             token: null,
             mayUseGl: true,
         });
+        expect(at("http://a.test/?token=a#token=b%26").token).toBe("b&");
         const full = at("http://a.test/?server=b.test:81&scene=table&room=r1&token=t%26");
         expect(full.server).toBe("http://b.test:81");
         expect(sessionAddress(full, "table", "r1")).toBe(
@@ -128,6 +129,24 @@ describe("messages", () => {
             expect(() => messageFromText(text)).toThrow(WireError);
         }
         expect(messageFromText('{"type":"weather"}')).toBeNull();
+    });
+
+    it("reads what the bake says of its error, where it does", () => {
+        const scene = { name: "s", width: 1, height: 1, face_resolution: 4 };
+        const rest = { room: "r", revision: 0, state: {}, viewers: 1, limits: {} };
+        const snapshot = (more: object) =>
+            messageFromText(
+                JSON.stringify({
+                    type: "snapshot",
+                    protocol: 1,
+                    scene: { ...scene, ...more },
+                    ...rest,
+                }),
+            );
+        expect(snapshot({ bake_error: 0.008 })).toMatchObject({ scene: { bake_error: 0.008 } });
+        expect(snapshot({})).toMatchObject({ scene });
+        expect(bakeErrorText(0.008)).toBe("bake ± 0.8 %");
+        expect(bakeErrorText(undefined)).toBe("");
     });
 
     it("refuses another protocol", () => {

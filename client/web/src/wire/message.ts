@@ -8,6 +8,8 @@ export interface SceneSummary {
     width: number;
     height: number;
     face_resolution: number;
+    /** Relative L2 error that the bake's sampling leaves in an image, where the bake states it. */
+    bake_error?: number;
 }
 
 export interface Snapshot {
@@ -133,6 +135,7 @@ export function messageFromText(text: string): ServerMessage | null {
                 );
             }
             const scene = objectAt(json, "scene");
+            const bakeError = scene["bake_error"];
             return {
                 type: "snapshot",
                 protocol,
@@ -142,6 +145,7 @@ export function messageFromText(text: string): ServerMessage | null {
                     width: numberAt(scene, "width"),
                     height: numberAt(scene, "height"),
                     face_resolution: numberAt(scene, "face_resolution"),
+                    ...(typeof bakeError === "number" ? { bake_error: bakeError } : {}),
                 },
                 revision: numberAt(json, "revision"),
                 state: objectAt(json, "state") as unknown as RoomState,
