@@ -17,7 +17,7 @@ list(FILTER RELUME_OIIO_INCLUDES EXCLUDE REGEX "/opencv4$")
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES "${RELUME_OIIO_INCLUDES}")
 find_package(assimp REQUIRED)
-find_package(TinyGLTF REQUIRED)
+find_package(TinyGLTF REQUIRED)             # its header; see precompute/scene/gltf/tinygltf.cpp
 find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(embree 3 REQUIRED)
