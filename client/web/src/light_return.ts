@@ -9,6 +9,8 @@ import type { Notices } from "./notices";
 import type { Session } from "./session";
 import type { UploadStore } from "./upload_store";
 import { titleOf } from "./wire/message";
+import { sameJson } from "./wire/same_json";
+import type { Json, RoomState } from "./wire/state";
 
 const kLostWords = "The connection was lost before the light was back";
 
@@ -33,6 +35,16 @@ export class LightReturn {
     offer(forgotten: Lighting): void {
         this.offered ??= forgotten;
         this.showOffer("The server has begun this room anew", []);
+    }
+
+    /** Someone else in the room may have brought it back. */
+    roomChanged(state: RoomState): void {
+        const { offered } = this;
+        if (offered === null || this.busy) return;
+        const isThere = (Object.keys(offered) as (keyof RoomState)[]).every((key) =>
+            sameJson(state[key] as unknown as Json, offered[key] as unknown as Json),
+        );
+        if (isThere) this.succeed();
     }
 
     /** Someone has uploaded a map: it may be the one that was missing. */
@@ -106,12 +118,15 @@ export class LightReturn {
         if (this.offered === null || this.busy) return;
         this.busy = true;
         try {
-            if (!(await this.bring(this.offered))) return;
-            this.endOffer();
-            this.notices.show({ tone: "info", title: "The light is back as it was" });
+            if (await this.bring(this.offered)) this.succeed();
         } finally {
             this.busy = false;
         }
+    }
+
+    private succeed(): void {
+        this.endOffer();
+        this.notices.show({ tone: "info", title: "The light is back as it was" });
     }
 
     private fail(title: string, details: string[]): false {

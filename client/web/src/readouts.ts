@@ -2,7 +2,13 @@
 import { byId, setText } from "./dom";
 import type { EditTimer } from "./edit_timer";
 import type { ErrorPlot } from "./error_plot";
-import { bakeErrorText, bytesText, millisecondsText, percentText, thousandsText } from "./format";
+import {
+    bakeErrorText,
+    bytesText,
+    millisecondsText,
+    percentText,
+    thousandsText,
+} from "./format";
 import { RateMeter } from "./rate_meter";
 import type { ImageHeader } from "./wire/image_header";
 

@@ -161,7 +161,7 @@ export class Session {
         if (message.type === "snapshot") {
             this.backoff.reset();
             const forgotten =
-                this.shared !== null && message.revision < this.shared.revision
+                this.shared !== null && this.shared.isForgottenBy(message)
                     ? this.shared.state
                     : null;
             this.snapshot = message;

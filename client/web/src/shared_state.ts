@@ -4,6 +4,7 @@
  * the hand that moves it.
  */
 import { applyPatch, composePatches } from "./wire/merge_patch";
+import { sameJson } from "./wire/same_json";
 import type { Change, Snapshot } from "./wire/message";
 import type { Json, JsonObject, RoomState } from "./wire/state";
 
@@ -30,6 +31,15 @@ export class SharedState {
 
     get state(): RoomState {
         return this.cached;
+    }
+
+    /**
+     * The room that `snapshot` is of does not go on from what this page knew of it: its
+     * revisions began anew.
+     */
+    isForgottenBy({ revision, state }: Snapshot): boolean {
+        if (revision !== this.revision) return revision < this.revision;
+        return !sameJson(state as unknown as Json, this.confirmed as unknown as Json);
     }
 
     /** Edits that are not sent, or not yet confirmed. */

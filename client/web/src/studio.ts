@@ -179,7 +179,8 @@ export class Studio {
             void this.loadEnvironments();
             if (forgotten !== null) this.lightReturn.offer(forgotten);
         });
-        session.stateChanged.listen(() => {
+        session.stateChanged.listen((state) => {
+            if (session.isSettled) this.lightReturn.roomChanged(state);
             if (session.lightRevision !== this.knownRevision || !session.isSettled) {
                 this.knownRevision = session.lightRevision;
                 this.movedAt = performance.now();

@@ -86,6 +86,30 @@ describe("SharedState", () => {
     });
 });
 
+describe("isForgottenBy", () => {
+    const snapshot = (revision: number, state: RoomState): Snapshot => ({
+        type: "snapshot",
+        protocol: 1,
+        room: "r",
+        scene: { name: "s", width: 1, height: 1, face_resolution: 4 },
+        revision,
+        state,
+        viewers: 1,
+        limits: {},
+    });
+
+    it("tells a room that began anew from one that went on", () => {
+        const shared = open(); // revision 5
+        expect(shared.isForgottenBy(snapshot(0, stateWith(1)))).toBe(true);
+        expect(shared.isForgottenBy(snapshot(5, stateWith(2)))).toBe(true);
+        expect(shared.isForgottenBy(snapshot(5, stateWith(1)))).toBe(false);
+        expect(shared.isForgottenBy(snapshot(6, stateWith(2)))).toBe(false);
+        const { display, ...rest } = stateWith(1);
+        const reordered = { display, ...rest };
+        expect(shared.isForgottenBy(snapshot(5, reordered))).toBe(false);
+    });
+});
+
 describe("hasPendingLight", () => {
     it("is about edits of the light on their way, not of display", () => {
         const shared = open();

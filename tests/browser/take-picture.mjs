@@ -1,0 +1,45 @@
+/**
+ * Takes client/web/pictures/studio.png anew: `tests/browser/run` sets the same variables.
+ * usage: STUDIO_SERVER=… STUDIO_SCENES=… STUDIO_WEB_ROOT=… CHROMIUM=… node take-picture.mjs FILE
+ */
+import { Server } from "./programs.mjs";
+import { launchBrowser, StudioPage } from "./studio_page.mjs";
+
+const [file] = process.argv.slice(2);
+if (file === undefined) {
+    console.error("usage: node take-picture.mjs FILE.png");
+    process.exit(2);
+}
+
+const server = await Server.onFreePort();
+const browser = await launchBrowser();
+try {
+    await server.start();
+    const { scenes } = await server.json("/api/scenes");
+    const studio = await StudioPage.open(
+        browser,
+        `${server.origin}/?scene=${scenes[0].name}&room=show`,
+        { width: 1600, height: 1000 },
+    );
+    const { page } = studio;
+    await studio.untilExact();
+    await page.locator(".environment", { hasText: /^sunset$/ }).click();
+    await studio.until((relume) => relume.state.environment.name === "sunset");
+    for (const light of ["key", "fill"]) {
+        await page.keyboard.press("l");
+        await studio.until((relume, id) => id in relume.state.lights, light);
+    }
+    await studio.light("key").locator(".light-row").dblclick();
+    await page.locator(".light-rename").fill("Window");
+    await page.keyboard.press("Enter");
+    await studio.light("key").locator(".light-row").click();
+    await studio.type("power EV", "-0.5");
+    await studio.type("colour", "4500K");
+    for (const across of [240, 180, -60]) await studio.drag(across, 0, { steps: 20 });
+    await studio.untilExact();
+    await page.mouse.move(800, 990);
+    await page.screenshot({ path: file });
+} finally {
+    await browser.close();
+    await server.stop("SIGTERM");
+}
