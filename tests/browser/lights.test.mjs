@@ -200,4 +200,37 @@ describe("lights", { timeout: 240_000 }, () => {
         await two.button("Back to the room's default").click();
         assert.equal((await two.display()).exposure_stops, 1);
     });
+
+    it("shows a viewer's own exposure while the light moves, too", async () => {
+        for (const painter of ["webgl2", "canvas2d"]) {
+            const query = `scene=${suite.scene}&room=own-${painter}`;
+            const page = await suite.open(`${query}&painter=${painter}`);
+            await page.untilExact();
+            for (let i = 0; i < 8; ++i) await page.page.keyboard.press("[");
+            // Medians, by the sort of image: 1 is JPEG, 2 half floats.
+            await page.page.evaluate(() => {
+                window.medians = { 1: [], 2: [] };
+                const look = () => {
+                    const { image } = window.relume;
+                    const green = window.relume.pixels().filter((_, i) => i % 4 === 1);
+                    if (image !== null)
+                        window.medians[image.encoding].push(green.sort()[green.length >> 1]);
+                    requestAnimationFrame(look);
+                };
+                look();
+            });
+            await page.drag(20, 0, { steps: 40 });
+            await page.page.waitForFunction(() => window.medians[1].length > 3);
+            await page.untilExact();
+            await page.page.waitForTimeout(100);
+            const { 1: moving, 2: settled } = await page.page.evaluate(() => window.medians);
+            const range = [Math.min(...settled), Math.max(...settled)];
+            for (const median of moving) {
+                assert.ok(
+                    median > range[0] - 12 && median < range[1] + 12,
+                    `${painter}: ${median} while moving, at rest ${range}`,
+                );
+            }
+        }
+    });
 });

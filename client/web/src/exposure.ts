@@ -1,8 +1,9 @@
 /**
  * Exposure and tone curve are each viewer's own; the room has a default, which a viewer sees who
- * has chosen none. On a settled image they act here at once.
+ * has chosen none. They act here at once: on linear light where the image is settled, else on the
+ * JPEG that came with the room's display.
  */
-import { clampExposure } from "./display";
+import { clampExposure, sameDisplay } from "./display";
 import type { ImageView } from "./image_view";
 import type { Session } from "./session";
 import { Signal } from "./signal";
@@ -29,8 +30,7 @@ export class Exposure {
 
     /** This viewer sees something else than the room's default. */
     get differs(): boolean {
-        const { exposure_stops, tone } = this.roomDisplay;
-        return this.display.exposure_stops !== exposure_stops || this.display.tone !== tone;
+        return !sameDisplay(this.display, this.roomDisplay);
     }
 
     /** For this viewer alone. */
@@ -61,7 +61,7 @@ export class Exposure {
     }
 
     private publish(): void {
-        this.view.setDisplay(this.display);
+        this.view.setDisplay(this.display, this.roomDisplay);
         this.changed.send(this.display);
     }
 }

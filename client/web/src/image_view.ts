@@ -4,6 +4,7 @@
  */
 import { CanvasPainter } from "./canvas_painter";
 import { GlPainter } from "./gl_painter";
+import { sameDisplay } from "./display";
 import type { DecodedImage } from "./image_decoder";
 import type { Painter } from "./painter";
 import type { ImageHeader } from "./wire/image_header";
@@ -19,6 +20,8 @@ export class ImageView {
     settled: SettledImage | null = null;
     private painter: Painter | null = null;
     private display: DisplayState = { exposure_stops: 0, tone: "filmic" };
+    /** What JPEGs come developed with. */
+    private jpegDisplay = this.display;
 
     constructor(
         private readonly frame: HTMLElement,
@@ -36,7 +39,7 @@ export class ImageView {
         painter.load(image);
         this.header = image.header;
         this.settled = image.kind === "half" ? image : null;
-        painter.paint(this.display);
+        painter.paint(this.display, this.jpegDisplay);
         if (image.kind === "jpeg") image.bitmap.close();
         const { width, height } = image.header;
         this.frame.style.setProperty("--image-width", String(width));
@@ -50,16 +53,19 @@ export class ImageView {
         this.settled = null;
     }
 
-    setDisplay(display: DisplayState): void {
-        const { exposure_stops, tone } = this.display;
-        if (display.exposure_stops === exposure_stops && display.tone === tone) return;
+    /** `jpegDisplay` is what JPEGs come developed with: the room's. */
+    setDisplay(display: DisplayState, jpegDisplay: DisplayState): void {
+        const isSame =
+            sameDisplay(display, this.display) && sameDisplay(jpegDisplay, this.jpegDisplay);
+        if (isSame) return;
         this.display = { ...display };
-        if (this.settled !== null) this.painter?.paint(this.display);
+        this.jpegDisplay = { ...jpegDisplay };
+        if (this.header !== null) this.painter?.paint(this.display, this.jpegDisplay);
     }
 
     /** R G B A bytes of the canvas from the top left; null before the first image. */
     read(): Uint8ClampedArray | null {
-        return this.painter?.read(this.display) ?? null;
+        return this.painter?.read() ?? null;
     }
 
     private makeCanvas(): HTMLCanvasElement {
