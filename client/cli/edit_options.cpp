@@ -1,23 +1,25 @@
 #include "client/cli/edit_options.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
+#include "base/program/usage.h"
+#include "base/text/strict_json.h"
 #include "client/cli/client_error.h"
-#include "protocol/wire/errors.h"
-#include "protocol/wire/json_text.h"
-#include "protocol/wire/limits.h"
 #include "protocol/wire/session_patch.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 namespace relume::cli {
 namespace {
 
 using nlohmann::json;
+
+// What a server takes in one message by default.
+constexpr std::size_t kMaxPatchBytes = std::size_t{64} << 10;
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
@@ -47,7 +49,8 @@ std::vector<double> numbers_from_text(std::string_view text,
         numbers.push_back(number);
     }
     if (numbers.size() != count) {
-        throw ClientError(fmt::format("{}: found \"{}\", expected {}", option, text, form));
+        throw program::UsageError(
+            fmt::format("{}: found \"{}\", expected {}", option, text, form));
     }
     return numbers;
 }
@@ -56,7 +59,8 @@ void put_light(json& patch, std::string_view text) {
     constexpr std::string_view kForm = "ID:X,Y,Z:RADIUS_DEGREES:R,G,B";
     const std::vector<std::string_view> parts = split(text, ':');
     if (parts.size() != 4) {
-        throw ClientError(fmt::format("--light: found \"{}\", expected {}", text, kForm));
+        throw program::UsageError(
+            fmt::format("--light: found \"{}\", expected {}", text, kForm));
     }
     patch["lights"][std::string(parts[0])] = {
         {"direction", numbers_from_text(parts[1], 3, "--light", kForm)},
@@ -64,31 +68,36 @@ void put_light(json& patch, std::string_view text) {
         {"radiance", numbers_from_text(parts[3], 3, "--light", kForm)}};
 }
 
+}  // namespace
+
 json patch_from_text(const std::string& text_or_file) {
-    std::string text = text_or_file;
+    if (text_or_file.empty()) {
+        return json::object();
+    }
+    std::string json_text = text_or_file;
     std::string source = "--patch";
-    if (text.starts_with('@')) {
-        source = text.substr(1);
-        std::ifstream file(source, std::ios::binary);
-        if (!file) {
-            throw ClientError(source + ": cannot be read");
+    if (json_text.starts_with('@')) {
+        source = json_text.substr(1);
+        try {
+            json_text = files::read_regular_file(source, kMaxPatchBytes);
+        } catch (const files::FileError& error) {
+            throw ClientError(error.what());
         }
-        text.assign(std::istreambuf_iterator<char>(file), {});
     }
     try {
-        json patch = wire::parse_json(text, wire::Limits{}.message_bytes);
+        json patch = text::parse_strict_json(json_text, kMaxPatchBytes);
         if (!patch.is_object()) {
-            throw ClientError(source + ": expected a JSON object");
+            throw ClientError(fmt::format("{}: found {}, expected a JSON object", source,
+                                          text::quote(patch)));
         }
         return patch;
-    } catch (const wire::WireError& error) {
+    } catch (const text::JsonError& error) {
         throw ClientError(source + ": " + error.what());
     }
 }
 
-}  // namespace
-
 json patch_from_options(const EditOptions& options, const std::string& environment) {
+    const json base = patch_from_text(options.patch);
     json patch = json::object();
     if (!environment.empty()) {
         patch["environment"]["name"] = environment;
@@ -115,10 +124,7 @@ json patch_from_options(const EditOptions& options, const std::string& environme
     if (options.coefficients) {
         patch["budget"]["coefficients"] = *options.coefficients;
     }
-    if (!options.patch.empty()) {
-        patch = wire::merge_patches(std::move(patch), patch_from_text(options.patch));
-    }
-    return patch;
+    return wire::merge_patches(base, patch);
 }
 
 }  // namespace relume::cli

@@ -13,16 +13,21 @@ namespace relume::cli {
 struct EditOptions {
     std::string rotate;               // "YAW,PITCH,ROLL" in degrees
     std::vector<std::string> lights;  // "ID:X,Y,Z:RADIUS_DEGREES:R,G,B"
-    std::string patch;                // JSON, or @FILE
+    std::string patch;                // JSON, or @FILE; applied first
     std::string method;
     std::string priority;
     std::optional<double> budget_ms;
     std::optional<std::uint32_t> coefficients;
 };
 
-// `environment` is a name on the server or empty. Empty object when nothing is asked for. What
-// --patch says goes before the other options. Throws ClientError when an option's form is
-// wrong; ranges and words are for the server to judge.
+// A JSON merge patch, or what the file of `@FILE` holds, as the page's exported lighting; an
+// empty object for an empty text. Throws ClientError with line and column of a fault.
+[[nodiscard]] nlohmann::json patch_from_text(const std::string& text_or_file);
+
+// `environment` is a name on the server or empty. Empty object when nothing is asked for. The
+// other options are applied over what --patch says. Throws ClientError for the patch and
+// program::UsageError for an option whose form is wrong; ranges and words are for the server to
+// judge.
 [[nodiscard]] nlohmann::json patch_from_options(const EditOptions& options,
                                                 const std::string& environment);
 

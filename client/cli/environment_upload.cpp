@@ -1,7 +1,12 @@
 #include "client/cli/environment_upload.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
+#include "base/text/near_files.h"
+#include "base/text/near_names.h"
 #include "client/cli/client_error.h"
 #include "client/cli/http_client.h"
+#include "client/cli/server_names.h"
 #include "protocol/wire/names.h"
 
 #include <fmt/format.h>
@@ -9,8 +14,8 @@
 #include <spdlog/spdlog.h>
 #include <xxhash.h>
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <vector>
 
 namespace relume::cli {
 namespace {
@@ -19,31 +24,37 @@ namespace fs = std::filesystem;
 
 // Decoding a large map takes the server seconds.
 constexpr std::chrono::seconds kUploadTimeout{180};
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 std::string content_of(const fs::path& path) {
-    const std::uintmax_t bytes = fs::file_size(path);
-    if (bytes > kMaxFileBytes) {
-        throw ClientError(fmt::format("{}: found {} bytes, expected at most {}", path.string(),
-                                      bytes, kMaxFileBytes));
+    try {
+        return files::read_regular_file(path, kMaxFileBytes);
+    } catch (const files::FileError& error) {
+        throw ClientError(error.what());
     }
-    std::ifstream file(path, std::ios::binary);
-    std::string content{std::istreambuf_iterator<char>(file), {}};
-    if (!file) {
-        throw ClientError(path.string() + ": cannot be read");
-    }
-    return content;
 }
 
-bool server_has(const Url& server, const std::string& name) {
-    const std::string target = "/api/environments";
-    const nlohmann::json answer = json_from_answer(http_get(server, target), "GET " + target);
-    for (const auto& environment : answer.at("environments")) {
-        if (environment.at("name") == name) {
-            return true;
-        }
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// What is meant by words that are no file: a name that the server knows.
+std::string known_name(const Url& server, const std::string& name) {
+    const bool looks_like_a_file =
+        name.ends_with(".hdr") || name.ends_with(".exr") || name.find('/') != std::string::npos;
+    if (looks_like_a_file || !wire::is_name(name)) {
+        throw ClientError(fmt::format("environment \"{}\": {}; expected a file or a name: {}",
+                                      name, text::text_from_missing_file(name),
+                                      wire::kNameRule));
     }
-    return false;
+    const std::vector<std::string> known = environments_of(server);
+    if (!has(known, name)) {
+        throw ClientError(
+            fmt::format("environment \"{}\": neither a file here nor known to the "
+                        "server, expected {}",
+                        name, text::expected_name(name, known, "environments")));
+    }
+    return name;
 }
 
 }  // namespace
@@ -72,18 +83,11 @@ std::string environment_on_server(const Url& server,
                                   const std::string& projection) {
     std::error_code ignored;
     if (!fs::is_regular_file(file_or_name, ignored)) {
-        const bool looks_like_a_file =
-            file_or_name.ends_with(".hdr") || file_or_name.ends_with(".exr");
-        if (looks_like_a_file || !wire::is_name(file_or_name)) {
-            throw ClientError(fmt::format(
-                "environment \"{}\": found no such file, expected a file or a name: {}",
-                file_or_name, wire::kNameRule));
-        }
-        return file_or_name;
+        return known_name(server, file_or_name);
     }
     std::string content = content_of(file_or_name);
     const std::string name = upload_name(file_or_name, content, projection);
-    if (server_has(server, name)) {
+    if (has(environments_of(server), name)) {
         return name;
     }
     std::string target = "/api/environments?name=" + percent_encoded(name);

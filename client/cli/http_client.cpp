@@ -1,5 +1,6 @@
 #include "client/cli/http_client.h"
 
+#include "base/text/strict_json.h"
 #include "client/cli/client_error.h"
 
 #include <boost/asio/connect.hpp>
@@ -61,6 +62,25 @@ HttpAnswer exchange(const Url& server,
     }
 }
 
+// What a refusal says of itself; nothing where it is not in the protocol's form.
+std::string detail_of(const std::string& body) {
+    try {
+        const nlohmann::json answer = text::parse_strict_json(body, kMaxAnswerBytes);
+        const nlohmann::json& error = answer.at("error");
+        const auto found = error.value("found", std::string());
+        std::string detail = ": " + error.value("message", std::string());
+        if (detail.find(found) == std::string::npos) {
+            detail += fmt::format(" (found {}, expected {})", found,
+                                  error.value("expected", std::string()));
+        }
+        return detail;
+    } catch (const text::JsonError&) {
+        return {};
+    } catch (const nlohmann::json::exception&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 HttpAnswer http_get(const Url& server,
@@ -81,23 +101,14 @@ HttpAnswer http_post(const Url& server,
 }
 
 nlohmann::json json_from_answer(const HttpAnswer& answer, const std::string& request) {
-    const nlohmann::json body = nlohmann::json::parse(answer.body, nullptr, false);
     if (answer.status >= 200 && answer.status < 300) {
-        if (body.is_discarded()) {
-            throw ClientError(fmt::format("{}: found a body that is not JSON", request));
-        }
-        return body;
-    }
-    std::string detail;
-    if (body.is_object() && body.contains("error") && body["error"].is_object()) {
-        const nlohmann::json& error = body["error"];
-        const std::string found = error.value("found", "");
-        detail = ": " + error.value("message", "");
-        if (detail.find(found) == std::string::npos) {
-            detail +=
-                fmt::format(" (found {}, expected {})", found, error.value("expected", ""));
+        try {
+            return text::parse_strict_json(answer.body, kMaxAnswerBytes);
+        } catch (const text::JsonError& error) {
+            throw ClientError(fmt::format("{}: the answer's body: {}", request, error.what()));
         }
     }
+    const std::string detail = detail_of(answer.body);
     throw ClientError(fmt::format("{}: found HTTP status {}, expected 2xx{}", request,
                                   answer.status, detail));
 }

@@ -1,19 +1,18 @@
 #include "client/cli/image_file.h"
 
+#include "base/files/atomic_file.h"
+#include "base/files/disk_room.h"
+#include "base/files/error.h"
 #include "client/cli/client_error.h"
 #include "protocol/wire/display.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <turbojpeg.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <functional>
+#include <memory>
 #include <vector>
 
 namespace relume::cli {
@@ -23,51 +22,24 @@ namespace fs = std::filesystem;
 
 constexpr int kJpegQuality = 95;
 
-void sync(const fs::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) {
-        throw ClientError(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-    }
-    const bool synced = ::fsync(file) == 0;
-    const int error = errno;
-    ::close(file);
-    if (!synced) {
-        throw ClientError(
-            fmt::format("{}: cannot be synced: {}", path.string(), std::strerror(error)));
-    }
-}
-
-// `write` makes the temporary file, which keeps the extension: OpenImageIO goes by it.
-void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    fs::path temporary = path;
-    temporary.replace_filename(fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(),
-                                           path.extension().string()));
-    try {
-        write(temporary);
-        sync(temporary);
-        fs::rename(temporary, path);
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw;
-    }
-}
-
+// Encoded in memory, for encoders do not all notice that a disk is full.
 void write_pixels(const fs::path& path,
                   const OIIO::ImageSpec& spec,
                   OIIO::TypeDesc type,
                   const void* pixels) {
-    write_whole(path, [&](const fs::path& temporary) {
-        const std::unique_ptr<OIIO::ImageOutput> output =
-            OIIO::ImageOutput::create(temporary.string());
-        if (!output) {
-            throw ClientError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
-        }
-        if (!output->open(temporary.string(), spec) || !output->write_image(type, pixels) ||
-            !output->close()) {
-            throw ClientError(fmt::format("{}: {}", path.string(), output->geterror()));
-        }
-    });
+    OIIO::Filesystem::IOVecOutput encoded;
+    OIIO::Filesystem::IOProxy* proxy = &encoded;
+    OIIO::ImageSpec into_memory = spec;
+    into_memory.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
+    if (!output) {
+        throw ClientError(fmt::format("{}: {}", path.string(), OIIO::geterror()));
+    }
+    if (!output->open(path.string(), into_memory) || !output->write_image(type, pixels) ||
+        !output->close()) {
+        throw ClientError(fmt::format("{}: {}", path.string(), output->geterror()));
+    }
+    write_file(path, std::as_bytes(std::span(encoded.buffer())));
 }
 
 OIIO::ImageSpec spec_of(const wire::ImageHeader& header,
@@ -213,15 +185,20 @@ void write_image_file(const fs::path& path,
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> content) {
-    write_whole(path, [&](const fs::path& temporary) {
-        std::ofstream file(temporary, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(content.data()),
-                   static_cast<std::streamsize>(content.size()));
-        file.close();
-        if (!file) {
-            throw ClientError(path.string() + ": cannot be written");
-        }
-    });
+    try {
+        files::write_file_atomically(path, {content});
+    } catch (const files::FileError& error) {
+        throw ClientError(error.what());
+    }
+}
+
+void require_writable(const fs::path& path) {
+    try {
+        files::require_replaceable(path);
+        files::require_room(path.has_parent_path() ? path.parent_path() : ".", 0, 0);
+    } catch (const files::FileError& error) {
+        throw ClientError(error.what());
+    }
 }
 
 void write_file(const fs::path& path, std::string_view content) {

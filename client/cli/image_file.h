@@ -31,6 +31,10 @@ void write_image_file(const std::filesystem::path& path,
                       std::span<const std::byte> jpeg,
                       const wire::ImageHeader& header);
 
+// Throws ClientError where it is known already that `path` cannot be written: no such folder,
+// no permission, no room, a folder of that name.
+void require_writable(const std::filesystem::path& path);
+
 // Writes text or bytes to `path` by way of a temporary file beside it, synced, and renamed.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 void write_file(const std::filesystem::path& path, std::string_view content);

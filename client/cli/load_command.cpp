@@ -1,6 +1,9 @@
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
+#include "client/cli/edit_options.h"
 #include "client/cli/load_test.h"
+#include "client/cli/progress.h"
+#include "client/cli/server_names.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,13 +15,26 @@ namespace {
 struct LoadCommandOptions {
     ServerOptions server;
     LoadOptions load;
+    std::string patch;
+    bool progress = false;
 };
 
 void test_load(const LoadCommandOptions& options) {
     LoadOptions load = options.load;
     load.server = url_from_text(options.server.url);
     load.token = options.server.token;
-    const nlohmann::json result = run_load_test(load);
+    load.patch = patch_from_text(options.patch);
+    require_scene(load.server, load.scene);
+    const nlohmann::json result = [&] {
+        Progress progress(options.progress);
+        if (!progress.is_silent()) {
+            load.on_progress = [&progress](const LoadProgress& at) {
+                progress.update(fmt::format("{} of {} sessions shown, {} edits, {} images",
+                                            at.shown, at.sessions, at.edits, at.images));
+            };
+        }
+        return run_load_test(load);
+    }();
     fmt::print("{}\n", result.dump());
     if (!result.at("ok").get<bool>()) {
         throw ClientError(
@@ -50,6 +66,11 @@ void add_load_command(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--budget-ms", load.budget_ms, "milliseconds asked for each image")
         ->check(CLI::Range(0.1, 1000.0));
+    command->add_option("--patch", options->patch,
+                        "lighting that every dragging session begins with, as a JSON merge "
+                        "patch, or @FILE with one");
+    command->add_flag("--progress", options->progress,
+                      "say how far it is, also where standard error is no terminal");
     command->add_option("--threads", load.threads, "threads for all sessions together")
         ->check(CLI::Range(std::size_t{1}, std::size_t{64}))
         ->capture_default_str();

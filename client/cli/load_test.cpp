@@ -5,6 +5,7 @@
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,43 @@ class StartingLine {
     const std::function<void()> on_all_;
 };
 
+// What all visitors did so far. Safe to share between threads.
+struct Tally {
+    std::atomic<std::size_t> shown = 0;  // sessions that have their first image, or ended
+    std::atomic<std::size_t> ended = 0;  // sessions
+    std::atomic<std::size_t> edits = 0;
+    std::atomic<std::size_t> images = 0;
+};
+
+// Tells how far all visitors are until all have left.
+class Teller {
+  public:
+    Teller(asio::io_context& io, const LoadOptions& options, const Tally& tally)
+        : options_(options), tally_(tally), beat_(asio::make_strand(io)) {}
+
+    void tell() {
+        const std::size_t sessions = options_.dragging + options_.idle;
+        options_.on_progress({.sessions = sessions,
+                              .shown = tally_.shown,
+                              .edits = tally_.edits,
+                              .images = tally_.images});
+        if (tally_.ended == sessions) {
+            return;
+        }
+        beat_.expires_after(std::chrono::milliseconds(250));
+        beat_.async_wait([this](const boost::system::error_code& error) {
+            if (!error) {
+                tell();
+            }
+        });
+    }
+
+  private:
+    const LoadOptions& options_;
+    const Tally& tally_;
+    asio::steady_timer beat_;
+};
+
 // One simulated person. Everything in it happens on the session's strand.
 class Visitor {
   public:
@@ -56,10 +94,12 @@ class Visitor {
             const LoadOptions& options,
             SessionOptions session,
             bool drags,
-            StartingLine& line)
+            StartingLine& line,
+            Tally& tally)
         : options_(options),
           drags_(drags),
           line_(line),
+          tally_(tally),
           session_(io, std::move(session), listener()),
           beat_(session_.executor()),
           end_(session_.executor()) {}
@@ -130,6 +170,7 @@ class Visitor {
     void arrive() {
         if (!has_arrived_) {
             has_arrived_ = true;
+            ++tally_.shown;
             line_.arrive();
         }
     }
@@ -141,12 +182,14 @@ class Visitor {
                 return;
             }
             yaw_degrees_ += kDegreesPerEdit;
-            nlohmann::json patch = {{"rotation", {{"yaw_degrees", yaw_degrees_}}}};
+            nlohmann::json patch = edits == 0 ? options_.patch : nlohmann::json::object();
+            patch["rotation"] = {{"yaw_degrees", yaw_degrees_}};
             if (edits == 0 && options_.budget_ms) {
                 patch["budget"]["milliseconds"] = *options_.budget_ms;
             }
             session_.send_edit(patch);
             ++edits;
+            ++tally_.edits;
             next_edit_ += from_seconds(1 / options_.rate_hz);
             drag();
         });
@@ -154,6 +197,7 @@ class Visitor {
 
     void image(const ReceivedImage& received) {
         ++images;
+        ++tally_.images;
         if (!first_image_ms) {
             first_image_ms =
                 std::chrono::duration<double, std::milli>(received.received - opened_at_)
@@ -172,6 +216,7 @@ class Visitor {
 
     void ended(const SessionEnd& e) {
         has_ended_ = true;
+        ++tally_.ended;
         beat_.cancel();
         end_.cancel();
         arrive();
@@ -183,6 +228,7 @@ class Visitor {
     const LoadOptions& options_;
     bool drags_;
     StartingLine& line_;
+    Tally& tally_;
     Clock::time_point opened_at_;
     bool has_arrived_ = false;
     bool has_ended_ = false;
@@ -207,6 +253,8 @@ SessionOptions session_options(const LoadOptions& options, bool drags) {
 
 nlohmann::json run_load_test(const LoadOptions& options) {
     asio::io_context io(static_cast<int>(options.threads));
+    Tally tally;
+    Teller teller(io, options, tally);
     std::vector<std::unique_ptr<Visitor>> visitors;
     const std::size_t count = options.dragging + options.idle;
     StartingLine line(count, [&] {
@@ -219,10 +267,13 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     for (std::size_t i = 0; i < count; ++i) {
         const bool drags = i < options.dragging;
         visitors.push_back(std::make_unique<Visitor>(
-            io, options, session_options(options, drags), drags, line));
+            io, options, session_options(options, drags), drags, line, tally));
     }
     for (const auto& visitor : visitors) {
         visitor->open();
+    }
+    if (options.on_progress) {
+        teller.tell();
     }
     {
         std::vector<std::jthread> threads;

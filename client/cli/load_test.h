@@ -3,13 +3,21 @@
 
 #include "client/cli/url.h"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace relume::cli {
+
+struct LoadProgress {
+    std::size_t sessions = 0;
+    std::size_t shown = 0;  // sessions that have their first image, or ended
+    std::size_t edits = 0;
+    std::size_t images = 0;
+};
 
 struct LoadOptions {
     Url server;
@@ -21,6 +29,10 @@ struct LoadOptions {
     double seconds = 10;              // of dragging
     std::optional<double> budget_ms;  // per image; the server's default without
     std::size_t threads = 1;
+    nlohmann::json patch =
+        nlohmann::json::object();  // part of each dragging session's first edit
+    // Called some times a second, by one thread at a time.
+    std::function<void(const LoadProgress&)> on_progress;
 };
 
 inline constexpr std::size_t kMaxLoadSessions = 10'000;

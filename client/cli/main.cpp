@@ -1,19 +1,10 @@
 // relume: renders, plays scripted sessions and tests load against a running relume-server.
+#include "base/program/program.h"
 #include "client/cli/commands.h"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-
-#include <cstdio>
-#include <exception>
-
-namespace {
-
-constexpr int kFailed = 1;
-constexpr int kUsage = 2;
-
-}  // namespace
 
 int main(int argc, char** argv) {
     // Standard output is for results alone.
@@ -29,13 +20,6 @@ int main(int argc, char** argv) {
     relume::cli::add_sequence_command(app);
     relume::cli::add_listing_commands(app);
     relume::cli::add_load_command(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : kUsage;
-    } catch (const std::exception& error) {
-        spdlog::error("{}", error.what());
-        return kFailed;
-    }
-    return 0;
+    // Commands run as callbacks of their subcommands.
+    return relume::program::run_program(app, argc, argv, [] { return relume::program::kDone; });
 }

@@ -1,8 +1,10 @@
+#include "base/program/usage.h"
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
 #include "client/cli/edit_options.h"
 #include "client/cli/environment_upload.h"
 #include "client/cli/image_file.h"
+#include "client/cli/server_names.h"
 #include "client/cli/settled_image.h"
 
 #include <CLI/CLI.hpp>
@@ -54,11 +56,16 @@ nlohmann::json summary_of(const SettledImage& settled,
 
 void render(const RenderOptions& options) {
     const Clock::time_point begin = Clock::now();
-    static_cast<void>(image_format_from_path(options.output));  // before any work is done
+    static_cast<void>(image_format_from_path(options.output));
+    require_writable(options.output);
     const Url server = url_from_text(options.server.url);
     const bool is_private = options.room.empty();
     if (is_private && options.scene.empty()) {
-        throw ClientError("render: found neither --scene nor --room, expected one of them");
+        throw program::UsageError(
+            "render: found neither --scene nor --room, expected one of them");
+    }
+    if (!options.scene.empty()) {
+        require_scene(server, options.scene);
     }
     const std::string environment =
         options.environment.empty()
@@ -115,8 +122,10 @@ void add_render_command(CLI::App& app) {
         ->add_option("--light", options->edits.lights,
                      "round light ID:X,Y,Z:RADIUS_DEGREES:R,G,B; may be given several times")
         ->take_all();
-    command->add_option("--patch", options->edits.patch,
-                        "further edits as a JSON merge patch, or @FILE with one");
+    command->add_option(
+        "--patch", options->edits.patch,
+        "lighting as a JSON merge patch, or @FILE with one, as the page exports "
+        "it; the other options are applied over it");
     command->add_option("--method", options->edits.method, "nwa, bi, pbi or guarded");
     command->add_option("--priority", options->edits.priority,
                         "area, none, transport or benefit");

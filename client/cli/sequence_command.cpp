@@ -1,16 +1,22 @@
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
+#include "base/program/usage.h"
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
+#include "client/cli/edit_options.h"
 #include "client/cli/environment_upload.h"
 #include "client/cli/image_file.h"
+#include "client/cli/progress.h"
 #include "client/cli/sequence_player.h"
+#include "client/cli/server_names.h"
+#include "protocol/wire/session_patch.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 
 namespace relume::cli {
 namespace {
@@ -27,16 +33,15 @@ struct SequenceCommandOptions {
     double rate_hz = 30;
     std::string csv;
     std::string json;
+    std::string patch;
+    bool progress = false;
 };
 
 SequenceScript script_from_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw ClientError(path + ": cannot be read");
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
     try {
-        return sequence_script_from_text(text);
+        return sequence_script_from_text(files::read_regular_file(path, kMaxScriptBytes));
+    } catch (const files::FileError& error) {
+        throw ClientError(error.what());
     } catch (const ClientError& error) {
         throw ClientError(path + ": " + error.what());
     }
@@ -46,6 +51,8 @@ void play(const SequenceCommandOptions& options) {
     SequenceOptions sequence;
     sequence.script = script_from_file(options.script);
     const Url server = url_from_text(options.server.url);
+    sequence.script.start =
+        wire::merge_patches(sequence.script.start, patch_from_text(options.patch));
     if (!options.environment.empty()) {
         sequence.script.start["environment"]["name"] = environment_on_server(
             server, options.server.token, options.environment, options.projection);
@@ -57,7 +64,8 @@ void play(const SequenceCommandOptions& options) {
         .images = ImageChoice::all,
         .token = options.server.token};
     if (options.room.empty() && sequence.session.scene.empty()) {
-        throw ClientError("sequence: found no scene, expected one in the script or by --scene");
+        throw program::UsageError(
+            "sequence: found no scene, expected one in the script or by --scene");
     }
     sequence.rate_hz = options.rate_hz;
     sequence.files =
@@ -65,12 +73,28 @@ void play(const SequenceCommandOptions& options) {
     sequence.folder = options.folder;
     if (options.folder.empty() &&
         options.files.value_or(ImageFiles::none) != ImageFiles::none) {
-        throw ClientError("sequence: found --images without a folder, expected -o");
+        throw program::UsageError("sequence: found --images without a folder, expected -o");
     }
     if (!options.folder.empty()) {
         std::filesystem::create_directories(options.folder);
     }
-    const SequenceReport report = play_sequence(sequence);
+    for (const std::string& file : {options.csv, options.json}) {
+        if (!file.empty()) {
+            require_writable(file);
+        }
+    }
+    if (!sequence.session.scene.empty()) {
+        require_scene(server, sequence.session.scene);
+    }
+    const SequenceReport report = [&] {
+        Progress progress(options.progress);
+        sequence.on_progress = [&progress](const SequenceProgress& at) {
+            progress.update(fmt::format("step {} of {}, {} edits, {} images, error {:.3g}",
+                                        std::min(at.step + 1, at.steps), at.steps, at.edits,
+                                        at.images, at.relative_error));
+        };
+        return play_sequence(sequence);
+    }();
     if (!options.csv.empty()) {
         write_file(options.csv, csv_from_report(report));
     }
@@ -107,6 +131,12 @@ void add_sequence_command(CLI::App& app) {
     command->add_option("--rate", options->rate_hz, "edits per second while something moves")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
+    command->add_option(
+        "--patch", options->patch,
+        "lighting to start with as a JSON merge patch, or @FILE with one, as the "
+        "page exports it; applied over the script's start");
+    command->add_flag("--progress", options->progress,
+                      "say how far it is, also where standard error is no terminal");
     command->add_option("--csv", options->csv, "file for a table, one line per image");
     command->add_option("--json", options->json, "file for the same as JSON");
     command->callback([options] { play(*options); });

@@ -136,7 +136,15 @@ class Player {
         }
         exact_ = header.exact && last_edit_shown_;
         if (begun_) {
+            const double relative_error = header.relative_error;
             record(std::move(received));
+            if (options_.on_progress) {
+                options_.on_progress({.step = step_,
+                                      .steps = options_.script.steps.size(),
+                                      .edits = report_.edits,
+                                      .images = report_.images.size(),
+                                      .relative_error = relative_error});
+            }
         }
         if (condition_ && condition_()) {
             condition_ = nullptr;

@@ -1,6 +1,6 @@
 #include "client/cli/url.h"
 
-#include "client/cli/client_error.h"
+#include "base/program/usage.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,10 @@ namespace relume::cli {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
-    throw ClientError(fmt::format(
-        "server URL \"{}\": found {}, expected http://HOST[:PORT] or ws://HOST[:PORT]", text,
-        why));
+    throw program::UsageError(
+        fmt::format("server URL \"{}\": found {}, expected HOST[:PORT], http://HOST[:PORT] or "
+                    "ws://HOST[:PORT]",
+                    text, why));
 }
 
 bool is_port(std::string_view text) {
@@ -31,15 +32,13 @@ std::string Url::authority() const {
 
 Url url_from_text(std::string_view text) {
     std::string_view rest = text;
-    bool known_scheme = false;
     for (const std::string_view scheme : {"http://", "ws://"}) {
         if (rest.starts_with(scheme)) {
             rest.remove_prefix(scheme.size());
-            known_scheme = true;
             break;
         }
     }
-    if (!known_scheme) {
+    if (rest.find("://") != std::string_view::npos) {
         refuse(text, "another scheme");
     }
     if (rest.find_first_of("?#@ ") != std::string_view::npos) {

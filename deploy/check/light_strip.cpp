@@ -1,5 +1,7 @@
 // relume-light-strip: the light of a session's state as a picture, for programs that know
 // nothing of sessions. What relume-bake relight makes of it is what relume-server must show.
+#include "base/files/regular_file.h"
+#include "base/program/program.h"
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/session_state.h"
 #include "server/light/environment_import.h"
@@ -10,10 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -35,12 +34,8 @@ struct Arguments {
 };
 
 wire::SessionState read_state(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw std::runtime_error(path.string() + ": cannot be read");
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return wire::session_state_from_json(wire::parse_json(text, kMaxStateBytes));
+    return wire::session_state_from_json(wire::parse_json(
+        relume::files::read_regular_file(path, kMaxStateBytes), kMaxStateBytes));
 }
 
 std::shared_ptr<const light::PrefilteredEnvironment> find_environment(
@@ -116,15 +111,11 @@ int main(int argc, char** argv) {
                    "Texels along a face: that of the transport")
         ->capture_default_str();
     app.add_option("-o,--output", arguments.output, "EXR image to write")->required();
-    CLI11_PARSE(app, argc, argv);
-    try {
+    return relume::program::run_program(app, argc, argv, [&] {
         light::LightCubemap cubemap(arguments.face_resolution);
         light::evaluate(rig_from(read_state(arguments.state), arguments),
                         arguments.face_resolution, cubemap);
         write_strip(cubemap, arguments.output);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "relume-light-strip: %s\n", error.what());
-        return 1;
-    }
-    return 0;
+        return relume::program::kDone;
+    });
 }

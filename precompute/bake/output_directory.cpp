@@ -34,6 +34,16 @@ void make_directory(const fs::path& path) {
     }
 }
 
+void remove_what_is_empty(const fs::path& directory) {
+    std::error_code ignored;
+    for (const fs::path& folder :
+         {directory / "shards", directory / "view", directory / "partial", directory}) {
+        if (fs::is_empty(folder, ignored) && !ignored) {
+            fs::remove(folder, ignored);
+        }
+    }
+}
+
 // Whatever a bake writes under a name of its own: no folder may have it.
 void require_free_names(const fs::path& directory) {
     for (const char* name :
@@ -103,28 +113,24 @@ OutputDirectory::OutputDirectory(fs::path path, const BakeParameters& parameters
     : path_(std::move(path)) {
     make_directory(path_);
     lock_.emplace(path_);
-    for (const char* folder : kFolders) {
-        make_directory(path_ / folder);
-    }
-    require_free_names(path_);
-    const LeastBytes least = least_bytes(parameters);
-    files::require_room(path_, least.total, least.longest_file);
-    for (const char* folder : kFolders) {
-        files::require_room(path_ / folder, 0, 0);
+    try {
+        for (const char* folder : kFolders) {
+            make_directory(path_ / folder);
+        }
+        require_free_names(path_);
+        const LeastBytes least = least_bytes(parameters);
+        files::require_room(path_, least.total, least.longest_file);
+        for (const char* folder : kFolders) {
+            files::require_room(path_ / folder, 0, 0);
+        }
+    } catch (...) {
+        remove_what_is_empty(path_);
+        throw;
     }
 }
 
 OutputDirectory::~OutputDirectory() {
-    // Removes empty folders only.
-    std::error_code ignored;
-    for (const char* folder : kFolders) {
-        if (fs::is_empty(path_ / folder, ignored) && !ignored) {
-            fs::remove(path_ / folder, ignored);
-        }
-    }
-    if (fs::is_empty(path_, ignored) && !ignored) {
-        fs::remove(path_, ignored);
-    }
+    remove_what_is_empty(path_);
 }
 
 }  // namespace relume::bake

@@ -1,5 +1,6 @@
 #include "precompute/scene/import_materials.h"
 
+#include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/import_folder.h"
 
@@ -165,7 +166,8 @@ std::optional<TextureIndex> MaterialImporter::texture_from_file(const std::strin
         return std::nullopt;
     }
     if (std::error_code error; !std::filesystem::exists(*path, error)) {
-        unused(user, fmt::format("texture '{}' (no such file)", reference));
+        unused(user,
+               fmt::format("texture '{}': {}", reference, text::text_from_missing_file(*path)));
         return std::nullopt;
     }
     return add(load_texture(path->string(), content));

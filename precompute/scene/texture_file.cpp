@@ -1,4 +1,5 @@
 // Image files to textures, through OpenImageIO.
+#include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/srgb.h"
 #include "precompute/scene/texture.h"
@@ -109,7 +110,10 @@ OIIO::ImageSpec read_options() {
 Texture load_texture(const std::string& path, TextureContent content) {
     if (std::error_code error; !std::filesystem::is_regular_file(path, error))
         throw SceneError(SceneFault::missing_file,
-                         fmt::format("texture '{}': no such file", path));
+                         fmt::format("texture '{}': {}", path,
+                                     std::filesystem::exists(path, error)
+                                         ? "expected a file, found something else"
+                                         : text::text_from_missing_file(path)));
     const OIIO::ImageSpec options = read_options();
     const auto input = OIIO::ImageInput::open(path, &options);
     if (!input)

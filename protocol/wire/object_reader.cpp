@@ -1,5 +1,6 @@
 #include "protocol/wire/object_reader.h"
 
+#include "base/text/near_names.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/names.h"
@@ -153,6 +154,11 @@ void ObjectReader::refuse_other_keys() const {
         std::string expected = known_keys_.empty() ? "no field" : "one of";
         for (const std::string_view known : known_keys_) {
             expected.append(" ").append(known);
+        }
+        if (const auto near = text::near_names(
+                key, std::vector<std::string>(known_keys_.begin(), known_keys_.end()));
+            !near.empty()) {
+            expected += "; did you mean " + near.front() + "?";
         }
         throw WireError(ErrorCode::unknown_field, path_to(key), quote(json(key)),
                         std::move(expected));

@@ -1,5 +1,8 @@
 #include "server/net/configuration.h"
 
+#include "base/program/program.h"
+#include "base/text/near_names.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -158,6 +161,17 @@ void add_connections(OptionSet& options, Configuration& c) {
                              "Without a sign of life from a WebSocket");
 }
 
+// Of a configuration file: options that are environment variables too.
+std::vector<std::string> keys_of(const CLI::App& app) {
+    std::vector<std::string> keys;
+    for (const CLI::Option* option : app.get_options()) {
+        if (!option->get_envname().empty()) {
+            keys.push_back(option->get_lnames().front());
+        }
+    }
+    return keys;
+}
+
 // Fills in what neither flags nor variables set. CLI11's own order puts the file before the
 // variables.
 void read_configuration_file(CLI::App& app, const std::filesystem::path& path) {
@@ -174,7 +188,9 @@ void read_configuration_file(CLI::App& app, const std::filesystem::path& path) {
         }
         CLI::Option* const option = app.get_option_no_throw("--" + item.name);
         if (option == nullptr || !item.parents.empty() || option->get_envname().empty()) {
-            throw CLI::ConfigError(path.string() + ": unknown key " + item.fullname());
+            throw CLI::ConfigError(path.string() + ": unknown key " + item.fullname() +
+                                   "; expected " +
+                                   text::expected_name(item.name, keys_of(app), "keys"));
         }
         if (option->count() == 0) {
             option->add_result(item.inputs);
@@ -219,10 +235,14 @@ CommandLine parse_command_line(std::span<const char* const> arguments) {
     try {
         return parse(app, arguments);
     } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) {
+            throw CommandLineExit(program::kWrongUsage,
+                                  "relume-server: " + program::text_from_mistake(app, error) +
+                                      "; --help names what there is\n");
+        }
         std::ostringstream out;
-        std::ostringstream err;
-        const bool mistake = app.exit(error, out, err) != 0;
-        throw CommandLineExit(mistake ? 2 : 0, mistake ? err.str() : out.str());
+        app.exit(error, out, out);
+        throw CommandLineExit(program::kDone, out.str());
     }
 }
 

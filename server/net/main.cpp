@@ -1,4 +1,5 @@
 // relume-server: serves relit scenes over HTTP and WebSockets until SIGTERM or SIGINT.
+#include "base/files/disk_room.h"
 #include "server/net/configuration.h"
 #include "server/net/server.h"
 
@@ -25,6 +26,7 @@ void set_up_log(const std::string& level) {
 // write, not of the process.
 sigset_t block_signals() {
     std::signal(SIGPIPE, SIG_IGN);
+    relume::files::make_file_size_limit_an_error();
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);

@@ -1,10 +1,12 @@
 #include "server/net/named_environments.h"
 
+#include "base/text/near_names.h"
 #include "protocol/wire/errors.h"
 
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace relume::net {
 
@@ -19,8 +21,12 @@ NamedEnvironments environments_after(const NamedEnvironments& before,
     const auto named = [&library](const std::string& name, const char* path) {
         std::shared_ptr<Environment> environment = library.find(name);
         if (!environment) {
+            std::vector<std::string> known;
+            for (const auto& other : library.list()) {
+                known.push_back(other.name);
+            }
             throw wire::WireError(wire::ErrorCode::unknown_name, path, name,
-                                  "the name of an environment listed by /api/environments");
+                                  text::expected_name(name, known, "environments"));
         }
         return environment;
     };

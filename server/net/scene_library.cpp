@@ -1,5 +1,7 @@
 #include "server/net/scene_library.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
 #include "protocol/transport/transport.h"
 #include "protocol/wire/names.h"
 
@@ -7,7 +9,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -93,18 +94,13 @@ std::uint64_t SceneLibrary::total_bytes() const {
 }
 
 std::optional<std::string> read_thumbnail(const ServedScene& scene) {
-    const fs::path path = scene.directory / "view" / "thumbnail.png";
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error || size > SceneLibrary::kMaxThumbnailBytes) {
+    // Sent to anybody who asks: no link may lead to another file.
+    try {
+        return files::read_regular_file(scene.directory / "view" / "thumbnail.png",
+                                        SceneLibrary::kMaxThumbnailBytes, files::Links::refuse);
+    } catch (const files::FileError&) {
         return std::nullopt;
     }
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-        return std::nullopt;
-    }
-    return bytes;
 }
 
 }  // namespace relume::net

@@ -1,11 +1,11 @@
 #include "server/net/static_files.h"
 
+#include "base/files/regular_file.h"
 #include "protocol/transport/checksum.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -65,17 +65,11 @@ StaticFile make_file(std::string body, std::string_view content_type, bool immut
 }
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
-    const std::uintmax_t size = fs::file_size(path);
-    if (size > max_bytes) {
+    if (fs::file_size(path) > max_bytes) {
         throw std::runtime_error(
             fmt::format("the page is larger than {} bytes", StaticFiles::kMaxTotalBytes));
     }
-    std::ifstream file(path, std::ios::binary);
-    std::string body(static_cast<std::size_t>(size), '\0');
-    if (!file.read(body.data(), static_cast<std::streamsize>(body.size()))) {
-        throw std::runtime_error(fmt::format("cannot read {}", path.string()));
-    }
-    return body;
+    return files::read_regular_file(path, max_bytes, files::Links::refuse);
 }
 
 }  // namespace

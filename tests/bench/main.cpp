@@ -1,4 +1,5 @@
 // relume-bench: the figures of the engine and the server, measured in one run.
+#include "base/program/program.h"
 #include "tests/bench/figure.h"
 #include "tests/bench/report.h"
 #include "tests/bench/workbench.h"
@@ -77,17 +78,13 @@ int main(int argc, char** argv) {
     app.add_flag("--flagship", options.flagship,
                  "also 1920x1080 in colour with one bounce; bakes for long when it is missing");
     app.add_flag("--quick", options.quick, "everything small and once: no times to quote");
-    CLI11_PARSE(app, argc, argv);
-    try {
+    return relume::program::run_program(app, argc, argv, [&] {
         Workbench workbench(options);
         Results results;
         const bool complete = measure_all(workbench, results);
         const std::string report =
             json ? json_report(workbench, results) : table_report(workbench, results);
         fmt::print("{}\n", report);
-        return complete ? 0 : 1;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "relume-bench: {}\n", error.what());
-        return 1;
-    }
+        return complete ? relume::program::kDone : relume::program::kFailed;
+    });
 }

@@ -1,10 +1,7 @@
 // relume-lab: speed against accuracy on any scene, light and sequence.
+#include "base/program/program.h"
 #include "tests/lab/commands/commands.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
 #include <vector>
 
 int main(int argc, char** argv) {
@@ -14,15 +11,12 @@ int main(int argc, char** argv) {
     const std::vector<lab::Command> commands{
         lab::add_run_command(app), lab::add_pareto_command(app), lab::add_terms_command(app),
         lab::add_seeds_command(app), lab::add_stability_command(app)};
-    CLI11_PARSE(app, argc, argv);
-    try {
+    return relume::program::run_program(app, argc, argv, [&] {
         for (const lab::Command& command : commands) {
             if (command.app->parsed()) {
                 return command.run();
             }
         }
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "relume-lab: {}\n", error.what());
-    }
-    return 1;
+        return relume::program::kWrongUsage;  // one is required, and so parsed
+    });
 }

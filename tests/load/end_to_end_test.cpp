@@ -1,16 +1,14 @@
 // The programs as they are delivered: a scene is baked, served, and looked at by the client.
+#include "tests/load/end_to_end.h"
+
 #include "tests/load/pixels.h"
-#include "tests/support/program.h"
-#include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
+#include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <memory>
-#include <stdexcept>
 #include <thread>
 
 namespace relume::test {
@@ -18,104 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr std::chrono::milliseconds kPoll{20};
-
-struct Answer {
-    int exit_code;
-    std::string output;
-    std::string errors;
-};
-
-class EndToEnd : public testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        scratch_ = std::make_unique<ScratchDirectory>();
-        fs::create_directory(folder() / "scenes");
-        fs::create_directory(folder() / "environments");
-        bake("box", {});
-        bake("box-sh", {"--basis", "sh", "--order", "10"});
-        write_environment(folder() / "sun.hdr");
-    }
-    static void TearDownTestSuite() { scratch_.reset(); }
-
-    void SetUp() override {
-        const fs::path port_file = folder() / "port";
-        fs::remove(port_file);
-        server_ = std::make_unique<Program>(
-            RELUME_SERVER,
-            std::vector<std::string>{"--scenes", (folder() / "scenes").string(),
-                                     "--environments", (folder() / "environments").string(),
-                                     "--listen", "127.0.0.1:0", "--port-file",
-                                     port_file.string()},
-            folder(), "server");
-        while (!fs::exists(port_file)) {
-            ASSERT_TRUE(server_->is_running()) << server_->errors() << server_->output();
-            std::this_thread::sleep_for(kPoll);
-        }
-        std::ifstream(port_file) >> port_;
-        while (run({"info"}).output.find("ready                   true") == std::string::npos) {
-            ASSERT_TRUE(server_->is_running()) << server_->errors() << server_->output();
-            std::this_thread::sleep_for(kPoll);
-        }
-    }
-
-    // Whatever a test did to it, the server ends in good order.
-    void TearDown() override {
-        server_->send(SIGTERM);
-        EXPECT_EQ(server_->wait(), 0) << server_->errors() << server_->output();
-    }
-
-    // The built-in box into the folder that is served.
-    static void bake(const std::string& name, const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"--builtin",
-                                           "box",
-                                           "--size",
-                                           "72x40",
-                                           "--light-resolution",
-                                           "8",
-                                           "--bounces",
-                                           "1",
-                                           "--samples",
-                                           "8",
-                                           "-o",
-                                           (folder() / "scenes" / (name + ".relume")).string()};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        static_cast<void>(run_to_end(RELUME_BAKE, arguments, folder(), "bake"));
-    }
-
-    static const fs::path& folder() { return scratch_->path(); }
-    static std::string in_folder(const char* name) { return (folder() / name).string(); }
-
-    [[nodiscard]] std::vector<std::string> with_server(
-        std::vector<std::string> arguments) const {
-        arguments.insert(arguments.end(), {"--server", "http://127.0.0.1:" + port_});
-        return arguments;
-    }
-    [[nodiscard]] Answer run(const std::vector<std::string>& arguments) const {
-        Program client(RELUME_CLIENT, with_server(arguments), folder(), "client");
-        const int exit_code = client.wait();
-        return {exit_code, client.output(), client.errors()};
-    }
-    // Renders to a linear image and returns what `--json` says; the run must succeed.
-    [[nodiscard]] json render(std::vector<std::string> arguments, const char* file) const {
-        arguments.insert(arguments.begin(), {"render", "--json", "-o", in_folder(file)});
-        const Answer answer = run(arguments);
-        if (answer.exit_code != 0) {
-            throw std::runtime_error(answer.errors);
-        }
-        return json::parse(answer.output);
-    }
-
-    Program& server() { return *server_; }
-
-  private:
-    static std::unique_ptr<ScratchDirectory> scratch_;
-    std::unique_ptr<Program> server_;
-    std::string port_;
-};
-
-std::unique_ptr<ScratchDirectory> EndToEnd::scratch_;
 
 TEST_F(EndToEnd, ListingsShowWhatIsServed) {
     const json scenes = json::parse(run({"scenes", "--json"}).output);
@@ -298,38 +198,6 @@ TEST_F(EndToEnd, SphericalHarmonicsAreServedAsWaveletsAre) {
     EXPECT_LE(relative_l2(pixels_of(folder() / "wavelets.exr"),
                           pixels_of(folder() / "harmonics.exr")),
               0.05);
-}
-
-TEST_F(EndToEnd, FailuresHaveTheirExitCodeAndTheirWords) {
-    struct Case {
-        std::vector<std::string> arguments;
-        int exit_code;
-        const char* words;
-    };
-    for (const Case& c : {
-             Case{{"render", "--scene", "none"}, 1, "unknown scene"},
-             Case{{"render", "--scene", "box", "--environment", "none"},
-                  1,
-                  "unknown_name at /environment/name"},
-             Case{{"render", "--scene", "box", "--method", "magic"},
-                  1,
-                  "out_of_range at /strategy/method"},
-             Case{{"render", "--scene", "box", "--light", "key:0,0,0:1:1,1,1"},
-                  1,
-                  "out_of_range at /lights/key/direction"},
-             Case{{"render", "--scene", "box", "--rotate", "1,2"}, 1, "--rotate"},
-             Case{{"render", "--scene", "box", "--until-error", "2"}, 2, "--until-error"},
-             Case{{"render", "--scene", "box", "--no-such-option"}, 2, "--no-such-option"},
-         }) {
-        std::vector<std::string> arguments = c.arguments;
-        arguments.insert(arguments.end(), {"-o", in_folder("failure.exr")});
-        const Answer answer = run(arguments);
-        EXPECT_EQ(answer.exit_code, c.exit_code) << answer.errors;
-        EXPECT_NE((answer.errors + answer.output).find(c.words), std::string::npos)
-            << answer.errors << answer.output;
-        EXPECT_FALSE(fs::exists(folder() / "failure.exr"));
-    }
-    EXPECT_EQ(render({"--scene", "box"}, "after.exr").at("exact"), true);
 }
 
 TEST_F(EndToEnd, AServerThatIsToldToStopSaysSo) {

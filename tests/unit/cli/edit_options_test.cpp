@@ -1,9 +1,13 @@
 #include "client/cli/edit_options.h"
 
+#include "base/program/usage.h"
 #include "client/cli/client_error.h"
+#include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <fstream>
 
 namespace relume::cli {
 namespace {
@@ -33,7 +37,7 @@ TEST(EditOptions, AllTogether) {
         "display": {"exposure_stops": 1}})"));
 }
 
-TEST(EditOptions, ThePatchGoesBeforeTheOthers) {
+TEST(EditOptions, TheOthersAreAppliedOverThePatch) {
     const EditOptions options{
         .rotate = "",
         .lights = {"key:0,1,0:5:10,9,8"},
@@ -43,16 +47,61 @@ TEST(EditOptions, ThePatchGoesBeforeTheOthers) {
         .budget_ms = {},
         .coefficients = 30};
     const json patch = patch_from_options(options, "");
-    EXPECT_EQ(patch.at("lights").at("key").at("angular_radius_degrees"), 6);
+    EXPECT_EQ(patch.at("lights").at("key").at("angular_radius_degrees"), 5);
     EXPECT_EQ(patch.at("lights").at("key").at("gain"), 2);
     EXPECT_EQ(patch.at("lights").at("key").at("direction"), json({0, 1, 0}));
     EXPECT_EQ(patch.at("budget"), json({{"coefficients", 30}}));
+}
+
+// As the page exports its lighting; null takes the second map away.
+TEST(EditOptions, LightingComesFromAFile) {
+    const test::ScratchDirectory scratch;
+    const std::string file = (scratch.path() / "lighting.json").string();
+    const char* lighting = R"({
+        "environment": {"name": "city", "gain": 2, "tint": [1, 1, 1]},
+        "blend": {"name": null, "amount": 0},
+        "rotation": {"quaternion": [1, 0, 0, 0]},
+        "lights": {"key": {"direction": [0, 1, 0], "angular_radius_degrees": 5,
+                           "radiance": [10, 10, 10]}},
+        "background": {"mode": "transparent"},
+        "display": {"exposure_stops": 1, "tone": "linear"}})";
+    std::ofstream(file) << lighting;
+    EditOptions options;
+    options.patch = "@" + file;
+    EXPECT_EQ(patch_from_options(options, ""), json::parse(lighting));
+    json expected = json::parse(lighting);
+    expected["environment"]["name"] = "night";
+    EXPECT_EQ(patch_from_options(options, "night"), expected);
+}
+
+std::string fault_of(const std::string& patch) {
+    try {
+        static_cast<void>(patch_from_text(patch));
+        return "none";
+    } catch (const ClientError& error) {
+        return error.what();
+    }
+}
+
+TEST(EditOptions, FaultsOfThePatchAreNamedByLine) {
+    const test::ScratchDirectory scratch;
+    const std::string file = (scratch.path() / "lighting.json").string();
+    std::ofstream(file) << "{\n  \"display\": {\n    \"tone\": linear\n  }\n}\n";
+    EXPECT_EQ(fault_of("@" + file),
+              file + ": found line 3, column 13: \"l\", expected JSON in UTF-8");
+    EXPECT_EQ(fault_of("[1]"), "--patch: found an array of 1, expected a JSON object");
+    std::ofstream(file) << std::string(100'000, '[');
+    EXPECT_NE(fault_of("@" + file).find("65536 bytes"), std::string::npos);
+    EXPECT_NE(fault_of("@" + scratch.path().string()).find("found a directory"),
+              std::string::npos);
 }
 
 bool refused(const EditOptions& options) {
     try {
         static_cast<void>(patch_from_options(options, ""));
     } catch (const ClientError&) {
+        return true;
+    } catch (const program::UsageError&) {
         return true;
     }
     return false;

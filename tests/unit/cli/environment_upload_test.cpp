@@ -2,8 +2,11 @@
 
 #include "client/cli/client_error.h"
 #include "protocol/wire/names.h"
+#include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 namespace relume::cli {
 namespace {
@@ -23,12 +26,24 @@ TEST(UploadNames, FollowContentAndProjection) {
     EXPECT_NE(upload_name("a.hdr", "x", ""), upload_name("a.hdr", "x", "latlong"));
 }
 
-TEST(Environments, ANameNeedsNoServerButAMissingFileIsNamed) {
-    const Url nowhere{"127.0.0.1", "1", ""};
-    EXPECT_EQ(environment_on_server(nowhere, "", "city", ""), "city");
-    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "", "missing.hdr", "")),
-                 ClientError);
-    EXPECT_THROW(static_cast<void>(environment_on_server(nowhere, "", "a/b", "")), ClientError);
+std::string refusal_of(const std::string& file_or_name) {
+    try {
+        static_cast<void>(environment_on_server({"127.0.0.1", "1", ""}, "", file_or_name, ""));
+        return "none";
+    } catch (const ClientError& error) {
+        return error.what();
+    }
+}
+
+TEST(Environments, AMissingFileIsNamedWithThoseLikeItAndNoServerIsAsked) {
+    const test::ScratchDirectory scratch;
+    std::ofstream(scratch.path() / "studio.hdr") << "x";
+    const std::string found = (scratch.path() / "studio.hdr").string();
+    const std::string asked = (scratch.path() / "studoi.hdr").string();
+    EXPECT_NE(refusal_of(asked).find("did you mean " + found + "?"), std::string::npos)
+        << refusal_of(asked);
+    EXPECT_NE(refusal_of("missing.hdr").find("no such file"), std::string::npos);
+    EXPECT_NE(refusal_of("a/b").find("no such file"), std::string::npos);
 }
 
 }  // namespace

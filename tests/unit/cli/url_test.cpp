@@ -1,6 +1,6 @@
 #include "client/cli/url.h"
 
-#include "client/cli/client_error.h"
+#include "base/program/usage.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,9 @@ namespace relume::cli {
 namespace {
 
 TEST(Urls, HostPortAndPrefix) {
+    EXPECT_EQ(url_from_text("example.org"), (Url{"example.org", "80", ""}));
+    EXPECT_EQ(url_from_text("localhost:8080"), (Url{"localhost", "8080", ""}));
+    EXPECT_EQ(url_from_text("[::1]:8080/a"), (Url{"::1", "8080", "/a"}));
     EXPECT_EQ(url_from_text("http://example.org"), (Url{"example.org", "80", ""}));
     EXPECT_EQ(url_from_text("ws://127.0.0.1:8080/"), (Url{"127.0.0.1", "8080", ""}));
     EXPECT_EQ(url_from_text("http://h:1/a/b//"), (Url{"h", "1", "/a/b"}));
@@ -19,8 +22,8 @@ TEST(Urls, HostPortAndPrefix) {
 
 TEST(Urls, RefusesWhatIsNoServerUrl) {
     for (const char* text : {"",
-                             "h",
-                             "h:80",
+                             "h:port",
+                             "user@h",
                              "https://h",
                              "wss://h",
                              "ftp://h",
@@ -38,7 +41,7 @@ TEST(Urls, RefusesWhatIsNoServerUrl) {
                              "http://[]",
                              "http://[::1]80",
                              "http://a b"}) {
-        EXPECT_THROW(static_cast<void>(url_from_text(text)), ClientError) << text;
+        EXPECT_THROW(static_cast<void>(url_from_text(text)), program::UsageError) << text;
     }
 }
 
