@@ -1,6 +1,7 @@
 #include "base/files/regular_file.h"
 
 #include "base/files/error.h"
+#include "base/text/near_files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -49,6 +50,10 @@ Descriptor open_regular_file(const std::filesystem::path& path, Links links) {
     struct stat status {};
     const int looked =
         links == Links::follow ? ::stat(path.c_str(), &status) : ::lstat(path.c_str(), &status);
+    if (looked != 0 && errno == ENOENT) {
+        throw FileError(
+            fmt::format("{}: {}", path.string(), text::text_from_missing_file(path)));
+    }
     if (looked != 0) {
         fail(path, "open");
     }

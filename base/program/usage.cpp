@@ -43,7 +43,8 @@ std::string text_from_mistake(const CLI::App& app, const CLI::ParseError& mistak
     std::replace(message.begin(), message.end(), '\n', ' ');
     for (const std::string& word : app.remaining(/*recurse=*/true)) {
         if (const auto near = names_like(app, word); !near.empty()) {
-            message += fmt::format("; did you mean {}?", fmt::join(near, " or "));
+            message +=
+                fmt::format("; found {}, did you mean {}?", word, fmt::join(near, " or "));
             break;
         }
     }

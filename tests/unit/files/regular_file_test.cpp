@@ -38,7 +38,11 @@ TEST_F(RegularFile, IsReadWhole) {
 
 // With no writer at its other end, opening a pipe waits for ever: the test would not end.
 TEST_F(RegularFile, NothingElseIsOpenedAndNothingIsWaitedFor) {
-    EXPECT_NE(refusal(path_).find("No such file"), std::string::npos);
+    std::ofstream(scratch_.path() / "It.txt");
+    EXPECT_EQ(refusal(scratch_.path() / "it.txt"),
+              (scratch_.path() / "it.txt").string() +
+                  ": no such file or folder; did you mean " +
+                  (scratch_.path() / "It.txt").string() + "?");
     ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
     EXPECT_EQ(refusal(path_), path_.string() + ": found a named pipe, expected a regular file");
     EXPECT_EQ(refusal(scratch_.path()),
