@@ -1,10 +1,11 @@
 #include "precompute/scene/gltf/container.h"
 
+#include "base/files/error.h"
+#include "base/files/regular_file.h"
 #include "precompute/scene/shown_text.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -23,34 +24,35 @@ std::uint32_t little_endian(std::span<const std::uint8_t> bytes, std::size_t at)
     return value;
 }
 
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 std::string_view text_of(std::span<const std::uint8_t> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
-                                    std::uint64_t max_bytes,
-                                    const FileName& file) {
+std::string read_file(const std::filesystem::path& path,
+                      std::uint64_t max_bytes,
+                      const FileName& file) {
     const std::string shown = shown_text(path.string());
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-        file.refuse(SceneFault::missing_file, fmt::format("'{}': no such file", shown));
     const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (error || size > max_bytes)
+    if (!error && size > max_bytes)
         file.refuse(SceneFault::too_large, fmt::format("'{}' has {} bytes; expected at most {}",
                                                        shown, size, max_bytes));
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-    std::ifstream stream(path, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<std::uint64_t>(stream.gcount()) != size)
-        file.refuse(SceneFault::missing_file, fmt::format("'{}' cannot be read", shown));
-    return bytes;
+    try {
+        return files::read_regular_file(path, static_cast<std::size_t>(max_bytes));
+    } catch (const files::FileError& fault) {
+        file.refuse(SceneFault::missing_file, shown_text(fault.what()));
+    }
 }
 
 Container::Container(const std::filesystem::path& path, const FileName& file)
     : bytes_(read_file(path, std::numeric_limits<std::uint64_t>::max(), file)) {
-    const std::span<const std::uint8_t> all(bytes_);
+    const auto all = bytes_of(bytes_);
     if (text_of(all).substr(0, 4) != "glTF") {
         json_ = text_of(all);
         return;

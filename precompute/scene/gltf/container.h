@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace relume::scene::gltf {
 
@@ -31,14 +31,14 @@ class Container {
     }
 
   private:
-    std::vector<std::uint8_t> bytes_;
+    std::string bytes_;
     std::string_view json_;
     std::optional<std::span<const std::uint8_t>> binary_;
 };
 
 // A whole file. Throws SceneError (missing_file, too_large).
-[[nodiscard]] std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
-                                                  std::uint64_t max_bytes,
-                                                  const FileName& file);
+[[nodiscard]] std::string read_file(const std::filesystem::path& path,
+                                    std::uint64_t max_bytes,
+                                    const FileName& file);
 
 }  // namespace relume::scene::gltf

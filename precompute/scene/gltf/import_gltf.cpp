@@ -35,7 +35,7 @@ class Importer {
           textures_(document_, views_, resources_, options.max_textures, imported_.scene),
           materials_(document_, textures_, imported_.scene),
           primitives_(document_, views_, accessors_, materials_, imported_.scene.report) {
-        imported_.scene.name = path.stem().string();
+        imported_.scene.name = shown_text(path.stem().string());
     }
 
     ImportedScene import_all() {

@@ -96,7 +96,8 @@ std::optional<std::vector<std::uint8_t>> Resources::read(const std::string& uri)
         std::error_code error;
         if (!path || !std::filesystem::is_regular_file(*path, error))
             return std::nullopt;
-        bytes = read_file(*path, left_, file_);
+        const std::string content = read_file(*path, left_, file_);
+        bytes = std::vector<std::uint8_t>(content.begin(), content.end());
     }
     if (bytes->size() > left_)
         file_.refuse(SceneFault::too_large,

@@ -1,6 +1,7 @@
 // Extensions: those that are read give what the plain file gives, others are refused or named.
 #include "precompute/scene/error.h"
 #include "precompute/scene/import.h"
+#include "tests/support/reference_tracer/random.h"
 #include "tests/support/scratch_directory.h"
 #include "tests/unit/scene/case_probe.h"
 #include "tests/unit/scene/gltf_builder.h"
@@ -210,7 +211,21 @@ TEST_F(GltfExtensions, DracoGivesTheMeshBack) {
     expect_near(scene.bounds().max, {1, 1, 0}, 1e-3F);
     expect_near(scene.meshes[0].colours[0], {1, 0.2F, 0});
     EXPECT_TRUE(test::surface_at(scene, 0.9F, 0.9F));
-    // Cut or changed, it is refused and nothing worse.
+    // Changed anywhere, it is another mesh or none.
+    reference::Random random(3);
+    for (std::size_t i = 0; i < 300; ++i) {
+        std::vector<std::uint8_t> changed = bytes;
+        changed[i % bytes.size()] = static_cast<std::uint8_t>(256 * random.uniform());
+        GltfBuilder other = builder;
+        other.document["bufferViews"][view]["buffer"] = other.buffer(changed);
+        test::write_json(scratch_.path() / "changed.gltf", other.document);
+        try {
+            EXPECT_GT(import_scene(scratch_.path() / "changed.gltf").triangle_count(), 0U);
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()), "");
+        }
+    }
+    // Cut short, it is refused.
     for (const std::size_t length : {std::size_t{0}, std::size_t{5}, bytes.size() / 2}) {
         GltfBuilder cut = builder;
         cut.document["bufferViews"][view]["byteLength"] = length;
