@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -108,6 +109,20 @@ class Morphs {
         }
     }
 
+    // Attributes that targets of some weight change and that are not added.
+    [[nodiscard]] std::set<std::string> others() const {
+        std::set<std::string> names;
+        for (std::size_t k = 0; k < std::min(weights_.size(), primitive_.targets.size()); ++k) {
+            for (const auto& entry : primitive_.targets[k]) {
+                const std::string& name = entry.first;
+                if (weights_[k] != 0 && name != "POSITION" && name != "NORMAL" &&
+                    name != "TANGENT")
+                    names.insert(shown_text(original_bytes(name)));
+            }
+        }
+        return names;
+    }
+
   private:
     const tinygltf::Primitive& primitive_;
     std::span<const double> weights_;
@@ -185,14 +200,16 @@ std::optional<PrimitiveShape> PrimitiveReader::read(const tinygltf::Primitive& p
                    fmt::format("index {} is {}; expected below {}", i, corners[i],
                                positions->count()));
     }
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES)
+    // Draco has whole triangles, whatever the primitive would have made of corners.
+    const int mode = draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode == TINYGLTF_MODE_TRIANGLES)
         left_out_.loose_indices += corners.size() % 3;
 
     const MaterialUse& use = materials_.use(primitive.material, who);
     PrimitiveShape shape;
     Mesh& mesh = shape.mesh;
     mesh.material = use.material;
-    mesh.triangles = triangles_of(primitive.mode, corners);
+    mesh.triangles = triangles_of(mode, corners);
     const std::size_t count = positions->count();
     const Vertices vertices = take_used_vertices(mesh.triangles, count);
     const auto each = [&](const auto& read_one) {
@@ -213,6 +230,8 @@ std::optional<PrimitiveShape> PrimitiveReader::read(const tinygltf::Primitive& p
     morphs.add("POSITION", vertices, shape.positions);
     morphs.add("NORMAL", vertices, mesh.normals);
     morphs.add("TANGENT", vertices, mesh.tangents);
+    for (const std::string& attribute : morphs.others())
+        report_.unused.push_back(fmt::format("{} of morph targets of {}", attribute, who));
     mesh.more_uvs.resize(std::max<std::size_t>(use.uvs.size(), 1) - 1);
     for (std::size_t set = 0; set < use.uvs.size(); ++set) {
         const UvSource& source = use.uvs[set];

@@ -211,6 +211,9 @@ TEST_F(GltfExtensions, DracoGivesTheMeshBack) {
     expect_near(scene.bounds().max, {1, 1, 0}, 1e-3F);
     expect_near(scene.meshes[0].colours[0], {1, 0.2F, 0});
     EXPECT_TRUE(test::surface_at(scene, 0.9F, 0.9F));
+    GltfBuilder strip = builder;
+    strip.primitive()["mode"] = 5;  // its triangles are whole all the same
+    EXPECT_EQ(import(strip).triangle_count(), 2U);
     // Changed anywhere, it is another mesh or none.
     reference::Random random(3);
     for (std::size_t i = 0; i < 300; ++i) {

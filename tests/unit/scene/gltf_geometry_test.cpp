@@ -138,6 +138,8 @@ TEST_F(GltfGeometry, MorphTargetsAreAppliedByTheirWeights) {
     builder.primitive()["targets"] = {{{"POSITION", up}}, {{"POSITION", aside}}};
     builder.document["meshes"][0]["weights"] = {0.5, 0};
     expect_near(import(builder).bounds().min, {0, 0, 2});
+    builder.primitive()["targets"][0]["TEXCOORD_0"] = 2;
+    EXPECT_TRUE(test::mentions(import(builder).report.unused, "TEXCOORD_0 of morph targets"));
     builder.document["nodes"][0]["weights"] = {0, 0.25};  // the node's own go before the mesh's
     expect_near(import(builder).bounds().min, {2, 0, 0});
 }
