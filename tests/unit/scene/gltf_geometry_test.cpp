@@ -1,8 +1,6 @@
 // Vertices and triangles of glTF in every form that they are written in.
-#include "precompute/scene/import.h"
-#include "tests/support/scratch_directory.h"
 #include "tests/unit/scene/case_probe.h"
-#include "tests/unit/scene/gltf_builder.h"
+#include "tests/unit/scene/gltf_import_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -16,14 +14,7 @@ namespace {
 using nlohmann::json;
 using test::GltfBuilder;
 
-class GltfGeometry : public testing::Test {
-  protected:
-    Scene import(const GltfBuilder& builder) {
-        test::write_json(scratch_.path() / "scene.gltf", builder.document);
-        return import_scene(scratch_.path() / "scene.gltf");
-    }
-    test::ScratchDirectory scratch_;
-};
+class GltfGeometry : public test::GltfImport {};
 
 void expect_near(const Imath::V3f& a, const Imath::V3f& b, float tolerance = 1e-5F) {
     EXPECT_LT((a - b).length(), tolerance) << a << " and " << b;
