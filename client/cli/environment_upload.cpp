@@ -59,9 +59,20 @@ std::string known_name(const Url& server, const std::string& name) {
 
 }  // namespace
 
+void add_map_options(CLI::App& command, MapReading& reading) {
+    command.add_option("--projection", reading.projection,
+                       "projection of the file (default: by its shape)");
+    command.add_option(
+        "--centre", reading.centre,
+        "where the map's centre looks: -z, +z, +x, -x, +y or -y (default: -z; +x "
+        "for maps made for Blender or three.js)");
+    command.add_option("--layer", reading.layer,
+                       "layer of an EXR file (default: the beauty); a wrong one lists all");
+}
+
 std::string upload_name(const fs::path& file,
                         std::string_view content,
-                        std::string_view projection) {
+                        const MapReading& reading) {
     constexpr std::size_t kHashDigits = 16;
     std::string stem = file.stem().string();
     for (char& c : stem) {
@@ -72,7 +83,9 @@ std::string upload_name(const fs::path& file,
     const std::size_t first = stem.find_first_not_of('.');
     stem = first == std::string::npos ? "environment" : stem.substr(first);
     stem.resize(std::min(stem.size(), wire::kMaxNameLength - kHashDigits - 1));
-    const XXH64_hash_t seed = XXH3_64bits(projection.data(), projection.size());
+    const std::string how =
+        fmt::format("{}\n{}\n{}", reading.projection, reading.centre, reading.layer);
+    const XXH64_hash_t seed = XXH3_64bits(how.data(), how.size());
     return fmt::format("{}-{:016x}", stem,
                        XXH3_64bits_withSeed(content.data(), content.size(), seed));
 }
@@ -80,20 +93,25 @@ std::string upload_name(const fs::path& file,
 std::string environment_on_server(const Url& server,
                                   const std::string& token,
                                   const std::string& file_or_name,
-                                  const std::string& projection) {
+                                  const MapReading& reading) {
     std::error_code ignored;
     if (!fs::is_regular_file(file_or_name, ignored)) {
         return known_name(server, file_or_name);
     }
     std::string content = content_of(file_or_name);
-    const std::string name = upload_name(file_or_name, content, projection);
+    const std::string name = upload_name(file_or_name, content, reading);
     if (has(environments_of(server), name)) {
         return name;
     }
     std::string target = "/api/environments?name=" + percent_encoded(name);
-    if (!projection.empty()) {
-        target += "&projection=" + percent_encoded(projection);
-    }
+    const auto ask = [&target](const char* key, const std::string& value) {
+        if (!value.empty()) {
+            target += fmt::format("&{}={}", key, percent_encoded(value));
+        }
+    };
+    ask("projection", reading.projection);
+    ask("centre", reading.centre);
+    ask("layer", reading.layer);
     const std::string request = "POST " + target;
     if (!token.empty()) {
         target += "&token=" + percent_encoded(token);

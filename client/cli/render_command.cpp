@@ -20,7 +20,7 @@ struct RenderOptions {
     std::string scene;
     std::string room;
     std::string environment;
-    std::string projection;
+    MapReading map;
     EditOptions edits;
     bool until_exact = false;
     std::optional<double> until_error;
@@ -68,10 +68,9 @@ void render(const RenderOptions& options) {
         require_scene(server, options.scene);
     }
     const std::string environment =
-        options.environment.empty()
-            ? std::string()
-            : environment_on_server(server, options.server.token, options.environment,
-                                    options.projection);
+        options.environment.empty() ? std::string()
+                                    : environment_on_server(server, options.server.token,
+                                                            options.environment, options.map);
     nlohmann::json patch = patch_from_options(options.edits, environment);
     // A room settles where its target error lets it. One that is not ours stays as it is unless
     // it is edited anyway.
@@ -115,8 +114,7 @@ void add_render_command(CLI::App& app) {
                         "room to join (default: a new one that nobody else sees)");
     command->add_option("--environment", options->environment,
                         "environment: a file to upload (.hdr, .exr) or a name on the server");
-    command->add_option("--projection", options->projection,
-                        "projection of the file (default: by its shape)");
+    add_map_options(*command, options->map);
     command->add_option("--rotate", options->edits.rotate, "YAW,PITCH,ROLL in degrees");
     command
         ->add_option("--light", options->edits.lights,

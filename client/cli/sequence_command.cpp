@@ -27,7 +27,7 @@ struct SequenceCommandOptions {
     std::string scene;
     std::string room;
     std::string environment;
-    std::string projection;
+    MapReading map;
     std::string folder;
     std::optional<ImageFiles> files;
     double rate_hz = 30;
@@ -55,7 +55,7 @@ void play(const SequenceCommandOptions& options) {
         wire::merge_patches(sequence.script.start, patch_from_text(options.patch));
     if (!options.environment.empty()) {
         sequence.script.start["environment"]["name"] = environment_on_server(
-            server, options.server.token, options.environment, options.projection);
+            server, options.server.token, options.environment, options.map);
     }
     sequence.session = {
         .server = server,
@@ -117,8 +117,7 @@ void add_sequence_command(CLI::App& app) {
                         "room to join (default: a new one that nobody else sees)");
     command->add_option("--environment", options->environment,
                         "environment to start with: a file to upload or a name on the server");
-    command->add_option("--projection", options->projection,
-                        "projection of the file (default: by its shape)");
+    add_map_options(*command, options->map);
     command->add_option("-o,--output", options->folder, "folder for the images");
     command
         ->add_option("--images", options->files,

@@ -119,8 +119,8 @@ int FileDescriptor::release() {
 ChildProcess::ChildProcess(const std::filesystem::path& program,
                            const std::vector<std::string>& arguments,
                            std::span<const std::byte> input,
-                           std::chrono::milliseconds timeout)
-    : deadline_(std::chrono::steady_clock::now() + timeout) {
+                           const ChildPatience& patience)
+    : deadline_(std::chrono::steady_clock::now() + patience.timeout), stop_(patience.stop) {
     const FileDescriptor file = memory_file(input);
     int ends[2] = {-1, -1};
     require(pipe2(static_cast<int*>(ends), O_CLOEXEC) == 0, errno, "pipe2");
@@ -145,13 +145,21 @@ int ChildProcess::remaining_ms() const {
 }
 
 ChildProcess::Read ChildProcess::read(std::span<std::byte> into) {
+    constexpr int kLooksForStopMs = 50;
     while (!into.empty()) {
+        if (stop_.stop_requested()) {
+            return Read::stopped;
+        }
         pollfd waiting{output_.get(), POLLIN, 0};
-        const int ready = poll(&waiting, 1, remaining_ms());
+        const int patience = remaining_ms();
+        const int ready = poll(&waiting, 1, std::min(patience, kLooksForStopMs));
         if (ready < 0 && errno == EINTR) {
             continue;
         }
         require(ready >= 0, errno, "poll");
+        if (ready == 0 && patience > kLooksForStopMs) {
+            continue;
+        }
         if (ready == 0) {
             return Read::timed_out;
         }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ class FileDescriptor {
     int fd_;
 };
 
+// How long a child is waited for: at most so long, and not after a stop is asked for.
+struct ChildPatience {
+    std::chrono::milliseconds timeout{0};
+    std::stop_token stop;
+};
+
 // The child inherits its three standard descriptors and nothing else: `input` as a file, a pipe
 // back, and /dev/null for errors; no environment, no blocked signals.
 class ChildProcess {
@@ -42,7 +49,7 @@ class ChildProcess {
     ChildProcess(const std::filesystem::path& program,
                  const std::vector<std::string>& arguments,
                  std::span<const std::byte> input,
-                 std::chrono::milliseconds timeout);
+                 const ChildPatience& patience);
     // Kills the child if it still runs, and collects it.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
@@ -50,8 +57,8 @@ class ChildProcess {
     ChildProcess(ChildProcess&&) = delete;
     ChildProcess& operator=(ChildProcess&&) = delete;
 
-    enum class Read { complete, ended, timed_out };
-    // Fills `into` from the child's output, waiting until the timeout given above.
+    enum class Read { complete, ended, timed_out, stopped };
+    // Fills `into` from the child's output, as long as patience lasts.
     [[nodiscard]] Read read(std::span<std::byte> into);
 
     // For a child whose output has ended: waits for it, within the timeout, and says how it
@@ -63,6 +70,7 @@ class ChildProcess {
     [[nodiscard]] int remaining_ms() const;
 
     std::chrono::steady_clock::time_point deadline_;
+    std::stop_token stop_;
     FileDescriptor output_;
     pid_t pid_ = -1;
 };

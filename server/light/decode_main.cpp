@@ -6,8 +6,7 @@
 #include "server/light/sandbox.h"
 
 #include <CLI/CLI.hpp>
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <OpenEXR/ImfThreading.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,6 +29,7 @@ using relume::light::ReplyStatus;
 
 struct Options {
     std::string projection;
+    std::string layer;
     std::size_t max_texels = relume::light::kMaxMapTexels;
     std::size_t max_bytes = 0;
     relume::light::SandboxLimits sandbox;
@@ -90,38 +90,27 @@ std::vector<std::byte> read_input(std::size_t max_bytes) {
     }
 }
 
-// Libraries look up files, locales and the number of cores when they are first used. Let them
-// do so on an image of our own, while that is still allowed.
-void warm_up(const char* format) {
-    OIIO::Filesystem::IOVecOutput written;
-    OIIO::Filesystem::IOProxy* proxy = &written;
-    OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::FLOAT);
-    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    const float texels[6] = {1, 1, 1, 1, 1, 1};
-    if (!output || !output->open(format, spec) ||
-        !output->write_image(OIIO::TypeDesc::FLOAT, static_cast<const float*>(texels)) ||
-        !output->close()) {
-        throw std::runtime_error(std::string("OpenImageIO here cannot write ") + format);
-    }
-    (void)relume::light::import_image(std::as_bytes(std::span(written.buffer())));
-}
-
 int decode(const Options& options) {
     try {
         const std::vector<std::byte> bytes = read_input(options.max_bytes);
         const relume::light::ImportedImage imported = relume::light::import_image(
-            bytes, relume::light::projection_from_string(options.projection),
-            options.max_texels);
-        std::string warnings;
-        for (const std::string& warning : imported.warnings) {
-            warnings += line(warning);
+            bytes, {.projection = relume::light::projection_from_string(options.projection),
+                    .layer = options.layer,
+                    .max_texels = options.max_texels});
+        const relume::light::ImportNotes& notes = imported.notes;
+        std::string text = line(notes.layer);
+        for (const std::string& warning : notes.warnings) {
+            text += line(warning);
+        }
+        for (const std::string& layer : notes.layers) {
+            text += line(layer);
         }
         reply({.status = ReplyStatus::decoded,
                .width = imported.image.width,
                .height = imported.image.height,
-               .projection = static_cast<std::uint32_t>(imported.projection)},
-              warnings, imported.image.rgb);
+               .projection = static_cast<std::uint32_t>(imported.projection),
+               .warnings = static_cast<std::uint32_t>(notes.warnings.size())},
+              text, imported.image.rgb);
     } catch (const relume::light::EnvironmentError& e) {
         refuse(e.what(), e.found(), e.expected());
     } catch (const std::bad_alloc&) {
@@ -139,16 +128,14 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app{"Decodes one image in a sandbox. Part of relume-server; not for use by hand."};
     app.add_option("--projection", options.projection, "empty: by shape");
+    app.add_option("--layer", options.layer, "empty: the beauty");
     app.add_option("--max-texels", options.max_texels)->required();
     app.add_option("--max-bytes", options.max_bytes)->required();
     app.add_option("--address-space-bytes", options.sandbox.address_space_bytes)->required();
     app.add_option("--cpu-seconds", options.sandbox.cpu_seconds)->required();
     CLI11_PARSE(app, argc, argv);
     try {
-        OIIO::attribute("threads", 1);
-        OIIO::attribute("exr_threads", -1);
-        warm_up("openexr");
-        warm_up("hdr");
+        Imf::setGlobalThreadCount(0);
         relume::light::run_sandboxed(options.sandbox, [&] { return decode(options); });
     } catch (const std::exception& e) {
         std::fprintf(stderr, "relume-decode: %s\n", e.what());

@@ -104,9 +104,11 @@ Imath::V3f lat_long_lookup(const Level& level, const MapPoint& point, float span
 
 }  // namespace
 
-void EnvironmentMap::find_points(const LookDirections& directions,
+void EnvironmentMap::find_points(const LookDirections& source_directions,
                                  std::span<const float> footprints_sr,
                                  LookPoints& points) const {
+    const LookDirections directions =
+        centre_ == MapCentre::negative_z ? source_directions : turned(source_directions);
     if (layout_ == Layout::lat_long) {
         lat_long_points(directions, footprints_sr.size(), points.places);
         footprint_spans(footprints_sr, points.places.cos_latitude, points.spans);
@@ -119,6 +121,19 @@ void EnvironmentMap::find_points(const LookDirections& directions,
         points.places.x[i] = point.x;
         points.places.y[i] = point.y;
     }
+}
+
+// To where a map whose centre looks to −Z has them.
+LookDirections EnvironmentMap::turned(const LookDirections& source_directions) const {
+    const Imath::M33f map_from_source = turn_of_centre(centre_).transposed();
+    LookDirections directions;
+    for (std::size_t i = 0; i < kLooksPerRun; ++i) {
+        const Imath::V3f d = product(
+            map_from_source,
+            Imath::V3f(source_directions.x[i], source_directions.y[i], source_directions.z[i]));
+        directions.set(i, d.x, d.y, d.z);
+    }
+    return directions;
 }
 
 void EnvironmentMap::radiances(const LookDirections& source_directions,

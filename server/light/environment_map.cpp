@@ -214,8 +214,8 @@ EnvironmentMap::Level next_level(Layout layout, const EnvironmentMap::Level& sou
 
 }  // namespace
 
-EnvironmentMap::EnvironmentMap(MapImage image, Projection projection)
-    : width_(image.width), height_(image.height), projection_(projection) {
+EnvironmentMap::EnvironmentMap(MapImage image, Projection projection, MapCentre centre)
+    : width_(image.width), height_(image.height), projection_(projection), centre_(centre) {
     check(image, projection);
     switch (projection) {
         case Projection::lat_long:

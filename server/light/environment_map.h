@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/light/lat_long_kernel.h"
+#include "server/light/map_centre.h"
 #include "server/light/projection.h"
 
 #include <Imath/ImathVec.h>
@@ -45,11 +46,14 @@ class EnvironmentMap {
 
     // Throws EnvironmentError when the shape does not fit the projection, the bounds above are
     // passed, or a value is negative, not finite or above kMaxTexelRadiance.
-    EnvironmentMap(MapImage image, Projection projection);
+    EnvironmentMap(MapImage image,
+                   Projection projection,
+                   MapCentre centre = MapCentre::negative_z);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
     [[nodiscard]] Projection projection() const { return projection_; }
+    [[nodiscard]] MapCentre centre() const { return centre_; }
     [[nodiscard]] Layout layout() const { return layout_; }
     [[nodiscard]] std::span<const Level> levels() const { return levels_; }
 
@@ -69,7 +73,8 @@ class EnvironmentMap {
     [[nodiscard]] Imath::V3d total_energy() const;
 
   private:
-    void find_points(const LookDirections& directions,
+    [[nodiscard]] LookDirections turned(const LookDirections& source_directions) const;
+    void find_points(const LookDirections& source_directions,
                      std::span<const float> footprints_sr,
                      LookPoints& points) const;
     // Of one level: its share of what is seen, by weight.
@@ -81,6 +86,7 @@ class EnvironmentMap {
     std::uint32_t width_;
     std::uint32_t height_;
     Projection projection_;
+    MapCentre centre_;
     Layout layout_;
     std::vector<Level> levels_;
 };

@@ -61,6 +61,12 @@ std::optional<Projection> projection_from_string(std::string_view name) {
 }
 
 std::optional<Projection> detect_projection(std::uint32_t width, std::uint32_t height) {
+    // A single row or column has no other shape to go by; one of six texels may be a strip.
+    if (width == 1 || height == 1) {
+        return has_own_shape(Projection::cubemap_strip, width, height)
+                   ? Projection::cubemap_strip
+                   : Projection::lat_long;
+    }
     for (const Entry& entry : kEntries) {
         if (has_own_shape(entry.projection, width, height)) {
             return entry.projection;

@@ -20,7 +20,8 @@ enum class Projection : std::uint8_t {
 [[nodiscard]] std::string_view to_string(Projection projection);
 [[nodiscard]] std::optional<Projection> projection_from_string(std::string_view name);
 
-// The only projection whose maps have this shape, if any.
+// The only projection whose maps have this shape, if any. A single row or column of any other
+// length than six is lat-long.
 [[nodiscard]] std::optional<Projection> detect_projection(std::uint32_t width,
                                                           std::uint32_t height);
 

@@ -31,17 +31,19 @@ std::filesystem::path find_program(const DecodeLimits& limits) {
     throw EnvironmentError(fmt::format("relume-decode is not in {}", here.string()));
 }
 
-std::vector<std::string> arguments(std::optional<Projection> projection,
-                                   const DecodeLimits& limits) {
+std::vector<std::string> arguments(const ImportOptions& options, const DecodeLimits& limits) {
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(limits.timeout).count();
     std::vector<std::string> words{
-        fmt::format("--max-texels={}", limits.max_texels),
+        fmt::format("--max-texels={}", std::min(limits.max_texels, options.max_texels)),
         fmt::format("--max-bytes={}", limits.max_file_bytes),
         fmt::format("--address-space-bytes={}", limits.address_space_bytes),
         fmt::format("--cpu-seconds={}", std::max<std::int64_t>(1, seconds)),
     };
-    if (projection) {
-        words.push_back(fmt::format("--projection={}", to_string(*projection)));
+    if (options.projection) {
+        words.push_back(fmt::format("--projection={}", to_string(*options.projection)));
+    }
+    if (!options.layer.empty()) {
+        words.push_back(fmt::format("--layer={}", options.layer));
     }
     return words;
 }
@@ -49,12 +51,14 @@ std::vector<std::string> arguments(std::optional<Projection> projection,
 class Decoding {
   public:
     Decoding(std::span<const std::byte> file_bytes,
-             std::optional<Projection> projection,
+             const ImportOptions& options,
              const DecodeLimits& limits)
-        : limits_(limits),
-          child_(
-              find_program(limits), arguments(projection, limits), file_bytes, limits.timeout) {
-    }
+        : options_(options),
+          limits_(limits),
+          child_(find_program(limits),
+                 arguments(options, limits),
+                 file_bytes,
+                 {.timeout = limits.timeout, .stop = limits.stop}) {}
 
     [[nodiscard]] ImportedEnvironment run() {
         ReplyHeader header;
@@ -77,8 +81,9 @@ class Decoding {
         if (const std::string end = child_.wait(); !end.empty()) {
             fail(end);
         }
-        return {EnvironmentMap(std::move(image), static_cast<Projection>(header.projection)),
-                std::move(lines)};
+        return {EnvironmentMap(std::move(image), static_cast<Projection>(header.projection),
+                               options_.centre),
+                notes_from(lines, header.warnings)};
     }
 
   private:
@@ -92,6 +97,8 @@ class Decoding {
                 return;
             case ChildProcess::Read::timed_out:
                 fail(fmt::format("took longer than {} ms", limits_.timeout.count()));
+            case ChildProcess::Read::stopped:
+                fail("was stopped, as nobody waits for the answer");
             case ChildProcess::Read::ended:
                 break;
         }
@@ -111,6 +118,21 @@ class Decoding {
         return image;
     }
 
+    // Short by what the longest text cut off.
+    static ImportNotes notes_from(const std::vector<std::string>& lines, std::size_t warnings) {
+        ImportNotes notes;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (i == 0) {
+                notes.layer = lines[i];
+            } else if (i <= warnings) {
+                notes.warnings.push_back(lines[i]);
+            } else {
+                notes.layers.push_back(lines[i]);
+            }
+        }
+        return notes;
+    }
+
     // A decoder that was taken over may say anything; only plain text goes on to logs and
     // clients.
     static std::vector<std::string> split(const std::string& text) {
@@ -126,6 +148,7 @@ class Decoding {
         return lines;
     }
 
+    const ImportOptions& options_;
     const DecodeLimits& limits_;
     ChildProcess child_;
 };
@@ -133,7 +156,7 @@ class Decoding {
 }  // namespace
 
 ImportedEnvironment decode_in_child(std::span<const std::byte> file_bytes,
-                                    std::optional<Projection> projection,
+                                    const ImportOptions& options,
                                     const DecodeLimits& limits) {
     if (file_bytes.size() > limits.max_file_bytes) {
         std::string found = fmt::format("{} bytes long", file_bytes.size());
@@ -142,7 +165,7 @@ ImportedEnvironment decode_in_child(std::span<const std::byte> file_bytes,
                                found, expected);
     }
     try {
-        return Decoding(file_bytes, projection, limits).run();
+        return Decoding(file_bytes, options, limits).run();
     } catch (const std::system_error& e) {
         throw EnvironmentError(std::string("the image could not be decoded: ") + e.what());
     }

@@ -14,15 +14,19 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 
 namespace relume::light {
 
 struct DecodeLimits {
     std::size_t max_file_bytes = std::size_t{64} << 20;
     // A map keeps 16 bytes a texel in the server: who takes many uploads will want this lower.
+    // The lower of this and of what the options allow counts.
     std::size_t max_texels = kMaxMapTexels;
     std::size_t address_space_bytes = std::size_t{6} << 30;
     std::chrono::milliseconds timeout{30'000};  // wall clock; CPU time is bounded by the same
+    // When it is asked to stop, the child is ended within a twentieth of a second.
+    std::stop_token stop;
     // Empty: `relume-decode` beside the running program.
     std::filesystem::path program;
 };
@@ -32,7 +36,7 @@ struct DecodeLimits {
 // child cannot be started, crashes, is stopped for a forbidden system call, runs out of time or
 // answers nonsense; the message says which.
 [[nodiscard]] ImportedEnvironment decode_in_child(std::span<const std::byte> file_bytes,
-                                                  std::optional<Projection> projection = {},
+                                                  const ImportOptions& options = {},
                                                   const DecodeLimits& limits = {});
 
 }  // namespace relume::light

@@ -27,11 +27,15 @@ constexpr std::size_t kChannels = 4;
 
 class Splatter {
   public:
-    Splatter(Layout layout,
+    Splatter(const EnvironmentMap& source,
              const EnvironmentMap::Level& level,
              std::uint32_t m,
              float part_side)
-        : layout_(layout), level_(level), m_(m), part_side_(part_side) {}
+        : layout_(source.layout()),
+          turn_(turn_of_centre(source.centre())),
+          level_(level),
+          m_(m),
+          part_side_(part_side) {}
 
     [[nodiscard]] std::uint32_t row_count() const {
         return face_count(layout_) * level_.height;
@@ -91,8 +95,8 @@ class Splatter {
         if (solid_angle <= 0) {
             return;
         }
-        const basis::FacePoint place =
-            basis::face_point_from_direction(direction_from_map_point(layout_, point));
+        const basis::FacePoint place = basis::face_point_from_direction(
+            product(turn_, direction_from_map_point(layout_, point)));
         const float half = static_cast<float>(m_) / 2;
         const float x = (place.u + 1) * half - 0.5F;
         const float y = (place.v + 1) * half - 0.5F;
@@ -115,6 +119,7 @@ class Splatter {
     }
 
     Layout layout_;
+    Imath::M33f turn_;
     const EnvironmentMap::Level& level_;
     std::uint32_t m_;
     float part_side_;
@@ -131,7 +136,7 @@ std::vector<float> splat_source(const EnvironmentMap& source, std::uint32_t m) {
                part_side) {
         ++chosen;
     }
-    const Splatter splatter(source.layout(), source.levels()[chosen], m, part_side);
+    const Splatter splatter(source, source.levels()[chosen], m, part_side);
 
     const std::size_t values = PaddedCubemap::value_count(m, kChannels);
     const std::size_t band_count =

@@ -82,7 +82,7 @@ std::size_t count_changed(MapImage& image, Change change) {
 
 }  // namespace
 
-std::vector<std::string> repair_texels(MapImage& image) {
+std::vector<std::string> replace_non_finite(MapImage& image) {
     std::vector<std::string> warnings;
     std::vector<std::size_t> bad;
     float brightest = kLargestHalf;
@@ -126,6 +126,11 @@ std::vector<std::string> repair_texels(MapImage& image) {
                                            bad.size() - overflowed));
         }
     }
+    return warnings;
+}
+
+std::vector<std::string> limit_texels(MapImage& image) {
+    std::vector<std::string> warnings;
     float lowest = 0;
     const std::size_t negative = count_changed(image, [&](float& value) {
         lowest = std::min(lowest, value);

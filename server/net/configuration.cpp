@@ -9,6 +9,7 @@
 #include <cctype>
 #include <chrono>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace relume::net {
@@ -49,6 +50,29 @@ class OptionSet {
         add(name, value, help)->check(CLI::Range(least, most));
     }
 
+    // One of a few names, by what makes a value of a name and a name of a value.
+    template <typename T, typename FromName, typename ToName>
+    void add_choice(const std::string& name,
+                    T& value,
+                    const std::string& help,
+                    FromName from_name,
+                    ToName to_name,
+                    const std::string& expected) {
+        app_.add_option_function<std::string>(
+                "--" + name,
+                [&value, from_name, name, expected](const std::string& text) {
+                    const std::optional<T> chosen = from_name(text);
+                    if (!chosen) {
+                        throw CLI::ValidationError("--" + name,
+                                                   "found " + text + ", expected " + expected);
+                    }
+                    value = *chosen;
+                },
+                help)
+            ->envname(variable_of(name))
+            ->default_str(std::string(to_name(value)));
+    }
+
     void add_milliseconds(const std::string& name,
                           std::chrono::milliseconds& value,
                           const std::string& help) {
@@ -70,6 +94,13 @@ void add_places(OptionSet& options, Configuration& c) {
         ->check(CLI::ExistingDirectory);
     options.add("environments", c.environments, "Folder of .hdr and .exr files")
         ->check(CLI::ExistingDirectory);
+    options.add_choice(
+        "centre", c.centre,
+        "Where the centres of those maps look: -z, +z, +x, -x, +y or -y; +x for "
+        "maps made for Blender or three.js",
+        [](std::string_view text) { return light::map_centre_from_string(text); },
+        [](light::MapCentre centre) { return light::to_string(centre); },
+        std::string(light::map_centre_names()));
     options.add("web-root", c.web_root, "Folder of the built page")
         ->check(CLI::ExistingDirectory);
     options.add("decoder", c.decoder,

@@ -17,9 +17,10 @@ namespace relume::net {
 
 struct Configuration {
     std::filesystem::path scenes = "scenes";
-    std::filesystem::path environments;  // empty: the procedural ones alone
-    std::filesystem::path web_root;      // empty: no page
-    std::filesystem::path decoder;       // relume-decode; empty: beside the running program
+    std::filesystem::path environments;                      // empty: the procedural ones alone
+    light::MapCentre centre = light::MapCentre::negative_z;  // of the maps in that folder
+    std::filesystem::path web_root;                          // empty: no page
+    std::filesystem::path decoder;  // relume-decode; empty: beside the running program
     std::string listen = "127.0.0.1:8080";
     std::filesystem::path port_file;
     std::string token;

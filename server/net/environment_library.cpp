@@ -4,7 +4,6 @@
 #include "protocol/wire/names.h"
 #include "server/light/procedural_environment.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -46,7 +45,7 @@ EnvironmentLibrary::EnvironmentLibrary(const EnvironmentBounds& bounds)
     }
 }
 
-void EnvironmentLibrary::add_folder(const fs::path& folder) {
+void EnvironmentLibrary::add_folder(const fs::path& folder, light::MapCentre centre) {
     std::error_code error;
     std::vector<fs::path> files;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -62,7 +61,7 @@ void EnvironmentLibrary::add_folder(const fs::path& folder) {
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
         try {
-            add_file(file);
+            add_file(file, centre);
         } catch (const std::exception& failure) {
             spdlog::error("environment_broken file={:?} reason={:?}", file.string(),
                           failure.what());
@@ -70,7 +69,7 @@ void EnvironmentLibrary::add_folder(const fs::path& folder) {
     }
 }
 
-void EnvironmentLibrary::add_file(const fs::path& file) {
+void EnvironmentLibrary::add_file(const fs::path& file, light::MapCentre centre) {
     const std::string name = file.stem().string();
     if (!wire::is_name(name)) {
         throw std::runtime_error(
@@ -79,20 +78,15 @@ void EnvironmentLibrary::add_file(const fs::path& file) {
     if (find(name)) {
         throw std::runtime_error(fmt::format("there is an environment {} already", name));
     }
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input) {
-        throw std::runtime_error(OIIO::geterror());
-    }
-    const auto width = static_cast<std::uint32_t>(input->spec().width);
-    const auto height = static_cast<std::uint32_t>(input->spec().height);
-    if (!light::detect_projection(width, height)) {
-        throw std::runtime_error(
-            fmt::format("{}x{} is the shape of no known projection", width, height));
-    }
-    add({.name = name, .kind = EnvironmentKind::file, .width = width, .height = height},
-        [file] {
-            light::ImportedEnvironment imported = light::import_environment(file);
-            for (const std::string& warning : imported.warnings) {
+    const light::ImportOptions options{.centre = centre};
+    const light::EnvironmentHeader header = light::read_environment_header(file, options);
+    add({.name = name,
+         .kind = EnvironmentKind::file,
+         .width = header.width,
+         .height = header.height},
+        [file, options] {
+            light::ImportedEnvironment imported = light::import_environment(file, options);
+            for (const std::string& warning : imported.notes.warnings) {
                 spdlog::warn("environment_changed file={:?} warning={:?}", file.string(),
                              warning);
             }

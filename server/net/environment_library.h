@@ -35,7 +35,9 @@ class EnvironmentLibrary {
     // Offers every .hdr and .exr of a folder by the name of its file. Reads no more than their
     // headers; what cannot be used is named in the log and left out. Throws std::runtime_error
     // if the folder cannot be read.
-    void add_folder(const std::filesystem::path& folder);
+    // `centre` is where the centres of all its maps look.
+    void add_folder(const std::filesystem::path& folder,
+                    light::MapCentre centre = light::MapCentre::negative_z);
 
     // Offers an uploaded map, in place of an earlier upload of this name. When there are too
     // many, those that no room uses go first. Throws WireError: unsupported when the name is
@@ -58,7 +60,7 @@ class EnvironmentLibrary {
         std::size_t bytes;
     };
 
-    void add_file(const std::filesystem::path& file);
+    void add_file(const std::filesystem::path& file, light::MapCentre centre);
     void add(Environment::Description description, Environment::Load load);
     void drop_unused_upload_locked();
     [[nodiscard]] bool has_room_for_locked(std::size_t bytes) const;

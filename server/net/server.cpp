@@ -37,9 +37,9 @@ StaticFiles files_from(const std::filesystem::path& web_root) {
 }
 
 EnvironmentLibrary& with_folder(EnvironmentLibrary& library,
-                                const std::filesystem::path& folder) {
-    if (!folder.empty()) {
-        library.add_folder(folder);
+                                const Configuration& configuration) {
+    if (!configuration.environments.empty()) {
+        library.add_folder(configuration.environments, configuration.centre);
     }
     return library;
 }
@@ -48,6 +48,7 @@ UploadOptions upload_options_from(const Configuration& configuration) {
     return {.file_bytes = configuration.limits.upload_bytes,
             .texels = configuration.connection.upload_texels,
             .concurrent = configuration.connection.concurrent_uploads,
+            .memory_bytes = configuration.environment_bounds.upload_memory_bytes,
             .decoder = configuration.decoder};
 }
 
@@ -65,7 +66,7 @@ struct Server::Parts {
           workers(c.workers, {.edits = 1, .refinements = engine::kMaxBatchMembers}),
           encoders(c.workers, {}),
           rooms(std::make_shared<Rooms>(scenes,
-                                        with_folder(environments, c.environments),
+                                        with_folder(environments, c),
                                         RoomThreads{workers, encoders},
                                         metrics,
                                         c.rooms)),
@@ -210,7 +211,7 @@ void Server::drain() {
 void check_configuration(const Configuration& configuration) {
     static_cast<void>(endpoint_from_address(configuration.listen));
     EnvironmentLibrary environments(configuration.environment_bounds);
-    with_folder(environments, configuration.environments);
+    with_folder(environments, configuration);
     if (!environments.find(configuration.rooms.environment)) {
         throw std::runtime_error(
             fmt::format("--default-environment: there is no environment {}",

@@ -2,18 +2,38 @@
 
 #include "protocol/wire/names.h"
 #include "server/light/environment_error.h"
-#include "server/light/sandboxed_decoder.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace relume::net {
 
 using wire::ErrorCode;
 using wire::WireError;
+
+namespace {
+
+constexpr std::size_t kMostLayerBytes = 1024;
+// A map with its pyramid, as EnvironmentMap keeps it.
+constexpr std::uint64_t kBytesPerTexel = 16;
+// What a decoder takes before it has read a byte: its program and libraries, mapped.
+constexpr std::uint64_t kDecoderBytes = std::uint64_t{256} << 20;
+
+}  // namespace
+
+light::DecodeLimits Uploads::decode_limits(std::stop_token stop) const {
+    light::DecodeLimits limits;
+    limits.max_file_bytes = options_.file_bytes;
+    limits.max_texels = std::min(options_.texels, options_.memory_bytes / kBytesPerTexel);
+    limits.address_space_bytes = kDecoderBytes + options_.file_bytes + options_.memory_bytes;
+    limits.stop = std::move(stop);
+    limits.program = options_.decoder;
+    return limits;
+}
 
 std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
     if (!access_.allows_origin(request)) {
@@ -33,15 +53,31 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
         return error_reply(400, WireError(ErrorCode::out_of_range, "name", *name,
                                           std::string(wire::kNameRule)));
     }
-    Upload upload{.name = *name, .projection = {}, .place = {}};
+    Upload upload{.name = *name, .options = {}, .place = {}};
     if (const auto projection = request.target.parameter("projection")) {
-        upload.projection = light::projection_from_string(*projection);
-        if (!upload.projection) {
+        upload.options.projection = light::projection_from_string(*projection);
+        if (!upload.options.projection) {
             return error_reply(400,
                                WireError(ErrorCode::unknown_name, "projection", *projection,
                                          "lat_long, vertical_cross, horizontal_cross, "
                                          "angular_map or cubemap_strip"));
         }
+    }
+    if (const auto centre = request.target.parameter("centre")) {
+        const auto known = light::map_centre_from_string(*centre);
+        if (!known) {
+            return error_reply(400, WireError(ErrorCode::unknown_name, "centre", *centre,
+                                              std::string(light::map_centre_names())));
+        }
+        upload.options.centre = *known;
+    }
+    if (const auto layer = request.target.parameter("layer")) {
+        if (layer->size() > kMostLayerBytes) {
+            return error_reply(400, WireError(ErrorCode::too_large, "layer",
+                                              fmt::format("{} bytes", layer->size()),
+                                              fmt::format("at most {}", kMostLayerBytes)));
+        }
+        upload.options.layer = *layer;
     }
     if (!request.content_length) {
         return error_reply(411, WireError(ErrorCode::missing_field, "Content-Length", "nothing",
@@ -71,19 +107,20 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
     return upload;
 }
 
-HttpReply Uploads::finish(const Upload& upload, std::span<const std::byte> body) {
-    light::DecodeLimits limits;
-    limits.max_file_bytes = options_.file_bytes;
-    limits.max_texels = options_.texels;
-    limits.program = options_.decoder;
+HttpReply Uploads::finish(const Upload& upload,
+                          std::span<const std::byte> body,
+                          std::stop_token stop) {
     try {
         light::ImportedEnvironment imported =
-            light::decode_in_child(body, upload.projection, limits);
+            light::decode_in_child(body, upload.options, decode_limits(std::move(stop)));
         const nlohmann::json answer{{"name", upload.name},
                                     {"width", imported.map.width()},
                                     {"height", imported.map.height()},
                                     {"projection", light::to_string(imported.map.projection())},
-                                    {"warnings", imported.warnings}};
+                                    {"centre", light::to_string(imported.map.centre())},
+                                    {"layer", imported.notes.layer},
+                                    {"layers", imported.notes.layers},
+                                    {"warnings", imported.notes.warnings}};
         library_.add_upload(upload.name, std::move(imported.map));
         spdlog::info("environment_uploaded name={} bytes={} width={} height={}", upload.name,
                      body.size(), answer["width"].get<unsigned>(),

@@ -1,7 +1,8 @@
 // Environments that clients send.
 #pragma once
 
-#include "server/light/projection.h"
+#include "server/light/environment_import.h"
+#include "server/light/sandboxed_decoder.h"
 #include "server/net/access.h"
 #include "server/net/connection_options.h"
 #include "server/net/environment_library.h"
@@ -14,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <variant>
 
@@ -22,7 +24,7 @@ namespace relume::net {
 // One upload that has been let in; holds a place among the concurrent ones as long as it lives.
 struct Upload {
     std::string name;
-    std::optional<light::Projection> projection;
+    light::ImportOptions options;
     std::shared_ptr<void> place;
 };
 
@@ -30,7 +32,8 @@ struct UploadOptions {
     std::uint64_t file_bytes = 0;
     std::uint64_t texels = 0;
     std::size_t concurrent = 0;
-    std::filesystem::path decoder;  // relume-decode; empty: beside the running program
+    std::uint64_t memory_bytes = 0;  // all uploads, decoded; and beside its programs a decoder
+    std::filesystem::path decoder;   // relume-decode; empty: beside the running program
 };
 
 // Thread-safe.
@@ -42,10 +45,15 @@ class Uploads {
     // Everything that can be said before the body is read: a refusal, or a place.
     [[nodiscard]] std::variant<HttpReply, Upload> admit(const HttpRequest& request);
     // Decodes in a child process (seconds: not for threads that serve sockets), and offers the
-    // environment under its name.
-    [[nodiscard]] HttpReply finish(const Upload& upload, std::span<const std::byte> body);
+    // environment under its name. A decoder is ended when `stop` asks for it: nobody waits
+    // then.
+    [[nodiscard]] HttpReply finish(const Upload& upload,
+                                   std::span<const std::byte> body,
+                                   std::stop_token stop = {});
 
   private:
+    [[nodiscard]] light::DecodeLimits decode_limits(std::stop_token stop) const;
+
     EnvironmentLibrary& library_;
     const Access& access_;
     const UploadOptions options_;

@@ -1,13 +1,13 @@
 // Any bytes are either an image whose texels may be relied on, or refused with
 // EnvironmentError.
 //
-// The first byte chooses whether a projection is asked for. OpenEXR and OpenImageIO themselves
-// come uninstrumented from the distribution: in them this finds what crashes, not what reads
+// The first byte chooses whether a projection is asked for. OpenEXR itself
+// comes uninstrumented from the distribution: in it this finds what crashes, not what reads
 // amiss.
 #include "server/light/environment_error.h"
 #include "server/light/environment_import.h"
 
-#include <OpenImageIO/imageio.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,8 +22,7 @@ using relume::light::ImportedImage;
 using relume::light::Projection;
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);
+    Imf::setGlobalThreadCount(0);
     return 0;
 }
 
@@ -48,8 +47,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         data[0] < kProjections ? std::optional(static_cast<Projection>(data[0])) : std::nullopt;
     constexpr std::size_t kMaxTexels = std::size_t{1} << 16;
     try {
-        ImportedImage imported = relume::light::import_image(
-            std::as_bytes(std::span(data, size)).subspan(1), projection, kMaxTexels);
+        ImportedImage imported =
+            relume::light::import_image(std::as_bytes(std::span(data, size)).subspan(1),
+                                        {.projection = projection, .max_texels = kMaxTexels});
         if (std::size_t{imported.image.width} * imported.image.height > kMaxTexels) {
             std::abort();
         }

@@ -9,8 +9,9 @@ int main(int argc, char** argv) {
     CLI::App app("Charts speed against accuracy of relighting methods.", "relume-lab");
     app.require_subcommand(1);
     const std::vector<lab::Command> commands{
-        lab::add_run_command(app), lab::add_pareto_command(app), lab::add_terms_command(app),
-        lab::add_seeds_command(app), lab::add_stability_command(app)};
+        lab::add_run_command(app),          lab::add_pareto_command(app),
+        lab::add_terms_command(app),        lab::add_seeds_command(app),
+        lab::add_light_filter_command(app), lab::add_stability_command(app)};
     return relume::program::run_program(app, argc, argv, [&] {
         for (const lab::Command& command : commands) {
             if (command.app->parsed()) {

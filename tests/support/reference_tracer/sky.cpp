@@ -85,6 +85,12 @@ Sky Sky::from_function(std::uint32_t n, Radiance radiance) {
     return {n, std::move(radiance), std::move(importance)};
 }
 
+Sky Sky::with_radiance(Radiance radiance) const {
+    Sky other = *this;
+    other.radiance_ = std::move(radiance);
+    return other;
+}
+
 V3d Sky::radiance(const V3d& direction) const {
     return radiance_(direction);
 }

@@ -27,6 +27,10 @@ class Sky {
     // Any function, non-negative; `n` is the resolution of the table that guides the samples.
     [[nodiscard]] static Sky from_function(std::uint32_t n, Radiance radiance);
 
+    // Another light with the samples of this one: equal random numbers then give equal paths,
+    // and two images differ by what the lights differ alone.
+    [[nodiscard]] Sky with_radiance(Radiance radiance) const;
+
     [[nodiscard]] Imath::V3d radiance(const Imath::V3d& direction) const;
     [[nodiscard]] SkySample sampled(Random& random) const;
     [[nodiscard]] double density(const Imath::V3d& direction) const;

@@ -10,8 +10,10 @@
 
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -59,7 +61,7 @@ TEST(SandboxedDecoder, GivesWhatDecodingHereGives) {
         const ImportedEnvironment here = import_environment(file);
         EXPECT_EQ(there.map.projection(), Projection::vertical_cross);
         EXPECT_EQ(there.map.levels()[0].rgb, here.map.levels()[0].rgb) << format;
-        EXPECT_EQ(there.warnings, here.warnings);
+        EXPECT_EQ(there.notes.warnings, here.notes.warnings);
     }
 }
 
@@ -92,14 +94,15 @@ TEST(SandboxedDecoder, DecodesTheStudioMapsWithTheirWarnings) {
     const ImportedEnvironment decoded =
         decode_in_child(std::as_bytes(std::span(text)), {}, real());
     EXPECT_EQ(decoded.map.width(), 1024U);
-    ASSERT_FALSE(decoded.warnings.empty());
-    expect_words(decoded.warnings.back(), "negative texels set to 0");
+    ASSERT_FALSE(decoded.notes.warnings.empty());
+    expect_words(decoded.notes.warnings.back(), "negative texels set to 0");
 }
 
 TEST(SandboxedDecoder, PassesOnProjectionAndRefusals) {
     const auto file =
         encode_rgb("openexr", draw(Projection::lat_long, 60, 21, smooth_radiance));
-    EXPECT_EQ(decode_in_child(file, Projection::lat_long, real()).map.width(), 60U);
+    EXPECT_EQ(decode_in_child(file, {.projection = Projection::lat_long}, real()).map.width(),
+              60U);
     try {
         (void)decode_in_child(file, {}, real());
         FAIL();
@@ -109,7 +112,7 @@ TEST(SandboxedDecoder, PassesOnProjectionAndRefusals) {
         expect_words(e.what(), "60x21");
     }
     expect_words(refusal("this is no image", real()), "Radiance HDR or OpenEXR");
-    expect_words(refusal("", real()), "no bytes");
+    expect_words(refusal("", real()), "is empty");
 }
 
 TEST(SandboxedDecoder, BrokenFilesEndInAResultOrANamedError) {
@@ -151,6 +154,56 @@ TEST(SandboxedDecoder, HugeDimensionsAreRefusedBeforeTheyAreDecoded) {
     DecodeLimits limits = real();
     limits.max_texels = 1 << 20;
     expect_words(refusal(text, limits), "1048576 in all");
+}
+
+std::vector<std::byte> content_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+TEST(SandboxedDecoder, HostileHeadersAreRefusedInWordsAndInLittleMemory) {
+    const std::filesystem::path cases = std::filesystem::path(RELUME_CASES) / "uploads";
+    const std::map<std::string, std::string> words{
+        {"exr_2g.exr", "texels a side"},
+        {"exr_65535.exr", "texels a side"},
+        {"exr_attr_huge.exr", "attribute foo of 2147483647 bytes"},
+        {"exr_deep.exr", "image is deep"},
+        {"exr_neg.exr", "from (100, 100) to (-100, -100)"},
+        {"exr_tiled_huge.exr", "tile is 2147483647x2147483647"}};
+    std::size_t tried = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(cases)) {
+        const std::string name = entry.path().filename();
+        ASSERT_TRUE(words.contains(name)) << name;
+        expect_words(refusal(content_of(entry.path()), real()), words.at(name));
+        ++tried;
+    }
+    EXPECT_EQ(tried, words.size());
+}
+
+TEST(SandboxedDecoder, WhatADecoderMayTakeIsBounded) {
+    // 2048×1024 texels take 25 MB, and the file says so truly.
+    const MapImage large{2048, 1024, std::vector<float>(std::size_t{3} * 2048 * 1024)};
+    const std::vector<std::byte> file = encode_rgb("openexr", large);
+    DecodeLimits limits = real();
+    EXPECT_EQ(refusal(file, limits), "not refused");
+    limits.address_space_bytes = std::size_t{32} << 20;
+    const std::string message = refusal(file, limits);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    expect_words(message, "memory");
+#endif
+}
+
+TEST(SandboxedDecoder, ADecodeEndsWhenNobodyWaitsForIt) {
+    DecodeLimits limits = misbehaving(milliseconds(60'000));
+    std::stop_source source;
+    limits.stop = source.get_token();
+    std::jthread stopper([&source] {
+        std::this_thread::sleep_for(milliseconds(100));
+        source.request_stop();
+    });
+    expect_words(refusal("hang", limits), "nobody waits");
 }
 
 TEST(SandboxedDecoder, LongFilesAreRefusedUnseen) {
