@@ -22,6 +22,11 @@ struct Options {
     LightFilterOptions measure;
 };
 
+std::string text_of(const LightFilterError::Distance& distance) {
+    return distance.value < distance.least ? fmt::format("below {:.2f} %", 100 * distance.least)
+                                           : fmt::format("{:.2f} %", 100 * distance.value);
+}
+
 // As Markdown, so that it can stand in a README.
 int run(const Options& options) {
     catch_interruption();
@@ -36,8 +41,8 @@ int run(const Options& options) {
                 }
                 const LightFilterError error =
                     light_filter_error(scene, *load_environment(name, n), options.measure);
-                fmt::print("| {} | {} | {} | {:.2f} % | {:.2f} % |\n", scene_name, name, n,
-                           100 * error.filtered, 100 * error.texel_means);
+                fmt::print("| {} | {} | {} | {} | {} |\n", scene_name, name, n,
+                           text_of(error.filtered), text_of(error.texel_means));
                 std::fflush(stdout);
             }
         }

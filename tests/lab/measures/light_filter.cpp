@@ -91,6 +91,27 @@ std::vector<V3d> difference(const std::vector<V3d>& a, const std::vector<V3d>& b
     return result;
 }
 
+// Collects, over turns, two independent images of the difference of two lights.
+class DistanceMeter {
+  public:
+    void add(const std::vector<V3d>& first, const std::vector<V3d>& second) {
+        squared_ += product(first, second);
+        const std::vector<V3d> noise = difference(first, second);
+        // The product of two such noises of variance s² at N values has the deviation s²·√N.
+        const double variance_sum = product(noise, noise) / 2;
+        variance_of_squared_ +=
+            variance_sum * variance_sum / (3.0 * static_cast<double>(noise.size()));
+    }
+    [[nodiscard]] LightFilterError::Distance relative_to(double size) const {
+        return {.value = std::sqrt(std::max(0.0, squared_) / size),
+                .least = std::sqrt(std::sqrt(variance_of_squared_) / size)};
+    }
+
+  private:
+    double squared_ = 0;
+    double variance_of_squared_ = 0;
+};
+
 }  // namespace
 
 LightFilterError light_filter_error(const scene::Scene& scene,
@@ -99,8 +120,8 @@ LightFilterError light_filter_error(const scene::Scene& scene,
     const std::uint32_t n = environment.face_resolution();
     std::mt19937_64 random(options.seed);
     double size = 0;
-    double filtered_distance = 0;
-    double means_distance = 0;
+    DistanceMeter filtered_distance;
+    DistanceMeter means_distance;
     for (std::uint32_t turn = 0; turn < options.turns; ++turn) {
         const Imath::Quatf rotation = random_rotation(random);
         const Radiance map = turned_map(environment.source(), rotation);
@@ -124,13 +145,13 @@ LightFilterError light_filter_error(const scene::Scene& scene,
             }
         }
         size += product(images[0][0], images[1][0]);
-        filtered_distance += product(difference(images[0][1], images[0][0]),
-                                     difference(images[1][1], images[1][0]));
-        means_distance += product(difference(images[0][2], images[0][0]),
-                                  difference(images[1][2], images[1][0]));
+        filtered_distance.add(difference(images[0][1], images[0][0]),
+                              difference(images[1][1], images[1][0]));
+        means_distance.add(difference(images[0][2], images[0][0]),
+                           difference(images[1][2], images[1][0]));
     }
-    return {.filtered = std::sqrt(std::max(0.0, filtered_distance) / size),
-            .texel_means = std::sqrt(std::max(0.0, means_distance) / size)};
+    return {.filtered = filtered_distance.relative_to(size),
+            .texel_means = means_distance.relative_to(size)};
 }
 
 }  // namespace relume::lab

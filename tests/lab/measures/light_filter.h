@@ -19,8 +19,12 @@ struct LightFilterOptions {
 // Relative L2 distances, over the pixels that see the scene, to an image of the same paths
 // under the map at full resolution, turned.
 struct LightFilterError {
-    double filtered = 0;     // under what server/light makes of it (protocol/light.md)
-    double texel_means = 0;  // under the mean radiance of each texel: what n alone costs
+    struct Distance {
+        double value = 0;
+        double least = 0;  // so much the paths' noise alone may look like, one deviation
+    };
+    Distance filtered;     // under what server/light makes of it (protocol/light.md)
+    Distance texel_means;  // under the mean radiance of each texel: what n alone costs
 };
 
 // Path-traced in double precision by tests/support/reference_tracer. The paths' own noise is
