@@ -77,7 +77,7 @@ describe("files", { timeout: 240_000 }, () => {
         const file = output("lighting.exr");
         await relume(
             ...["render", "--server", suite.server.origin, "--scene", suite.scene],
-            ...["--patch", text, "--until-exact", "-o", file],
+            ...["--patch", `@${path}`, "--until-exact", "-o", file],
         );
         assert.ok(relativeL2((await readExr(file)).rgb, rgb) <= 1e-5);
 
