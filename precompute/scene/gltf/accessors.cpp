@@ -103,8 +103,11 @@ float Elements::number(std::size_t i, std::size_t c) const {
 }
 
 std::uint32_t Elements::whole(std::size_t i, std::size_t c) const {
-    if (!own_.empty())
-        return static_cast<std::uint32_t>(std::max(own_[i * width_ + c], 0.0F));
+    if (!own_.empty()) {
+        // Joints are shorts; what is none is an index that no skin has.
+        const float value = own_[i * width_ + c];
+        return value >= 0 && value <= 65535 ? static_cast<std::uint32_t>(value) : 65536U;
+    }
     const std::uint8_t* at = place(i, c);
     if (at == nullptr)
         return 0;
