@@ -147,7 +147,9 @@ void add_server_options(CLI::App& command, ServerOptions& options) {
 void add_listing_commands(CLI::App& app) {
     const auto scenes = std::make_shared<ListingOptions>();
     add_listing(app, scenes, "scenes", "List the server's scenes.")->callback([scenes] {
-        list(*scenes, "scenes", {"name", "width", "height", "face_resolution", "bytes"});
+        list(*scenes, "scenes",
+             {"name", "width", "height", "basis", "face_resolution", "columns", "bytes",
+              "memory_bytes"});
     });
     const auto environments = std::make_shared<ListingOptions>();
     add_listing(app, environments, "environments", "List the server's environments.")

@@ -90,7 +90,7 @@ class ObjectReader {
         return {number_from(value[0], key), number_from(value[1], key),
                 number_from(value[2], key)};
     }
-    void expect_text(const char* key, const char* expected) const {
+    void expect_text(const char* key, std::string_view expected) const {
         if (string(key) != expected) {
             fail(key, text::quote(string(key)), expected);
         }
@@ -345,7 +345,7 @@ std::string text_from_manifest(const Manifest& manifest) {
     const json object{
         {"format", "relume-transport"},
         {"version", kFormatVersion},
-        {"kind", "image"},
+        {"kind", kKind},
         {"generator", manifest.generator},
         {"fingerprint", text_from_checksum(manifest.fingerprint)},
         {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
@@ -381,7 +381,7 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     const ObjectReader top(parsed, std::string(file) + ": manifest");
     top.expect_text("format", "relume-transport");
     top.expect_integer("version", kFormatVersion);
-    top.expect_text("kind", "image");
+    top.expect_text("kind", kKind);
 
     Manifest manifest;
     manifest.generator = top.string("generator");

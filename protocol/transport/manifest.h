@@ -16,6 +16,9 @@
 
 namespace relume::transport {
 
+// What the transport takes to what: light to the pixels of one camera.
+inline constexpr std::string_view kKind = "image";
+
 // As the manifest and people name a basis: "haar", "sh".
 [[nodiscard]] std::string_view name_of(basis::LightBasis::Kind kind);
 [[nodiscard]] nlohmann::json json_from(const basis::LightBasis& basis);

@@ -3,6 +3,7 @@
 
 #include "protocol/wire/errors.h"
 #include "protocol/wire/limits.h"
+#include "protocol/wire/scene_summary.h"
 #include "protocol/wire/session_state.h"
 
 #include <nlohmann/json.hpp>
@@ -28,14 +29,6 @@ struct Ack {
 using ClientMessage = std::variant<Edit, Ack>;
 
 // Server to client.
-struct SceneSummary {
-    std::string name;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::uint32_t face_resolution = 0;
-
-    friend bool operator==(const SceneSummary&, const SceneSummary&) = default;
-};
 struct Snapshot {
     std::string room;
     SceneSummary scene;

@@ -46,12 +46,8 @@ Snapshot snapshot_from(ObjectReader& reader) {
         throw WireError(ErrorCode::unsupported, "/protocol", std::to_string(version),
                         std::to_string(kProtocolVersion));
     }
-    ObjectReader scene(reader.require("scene"), "/scene");
     return {.room = name_from_json(reader.require("room"), "/room"),
-            .scene = {.name = name_from_json(scene.require("name"), "/scene/name"),
-                      .width = count_from(scene, "width"),
-                      .height = count_from(scene, "height"),
-                      .face_resolution = count_from(scene, "face_resolution")},
+            .scene = scene_summary_from_json(reader.require("scene"), "/scene"),
             .revision = integer_from(reader, "revision"),
             .state = session_state_from_json(reader.require("state")),
             .viewers = count_from(reader, "viewers"),
@@ -85,11 +81,7 @@ std::string text_from_message(const Snapshot& message) {
     return text_from_json({{"type", "snapshot"},
                            {"protocol", kProtocolVersion},
                            {"room", message.room},
-                           {"scene",
-                            {{"name", message.scene.name},
-                             {"width", message.scene.width},
-                             {"height", message.scene.height},
-                             {"face_resolution", message.scene.face_resolution}}},
+                           {"scene", to_json(message.scene)},
                            {"revision", message.revision},
                            {"state", to_json(message.state)},
                            {"viewers", message.viewers},

@@ -153,12 +153,7 @@ HttpReply HttpRoutes::metrics() const {
 HttpReply HttpRoutes::scenes() const {
     nlohmann::json all = nlohmann::json::array();
     for (const auto& scene : scenes_.list()) {
-        const transport::TileGrid& image = scene->engine->image();
-        all.push_back({{"name", scene->name},
-                       {"width", image.width},
-                       {"height", image.height},
-                       {"face_resolution", scene->engine->face_resolution()},
-                       {"bytes", scene->engine->transport().total_bytes()}});
+        all.push_back(wire::to_json(scene->summary()));
     }
     return json_reply(200, nlohmann::json{{"scenes", std::move(all)}}.dump());
 }

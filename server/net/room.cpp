@@ -65,13 +65,9 @@ void Room::leave(const SharedOutbox& viewer) {
 }
 
 std::string Room::snapshot_text_locked() const {
-    const transport::TileGrid& image = scene_->engine->image();
     return wire::text_from_message(
         wire::Snapshot{.room = name_,
-                       .scene = {.name = scene_->name,
-                                 .width = image.width,
-                                 .height = image.height,
-                                 .face_resolution = scene_->engine->face_resolution()},
+                       .scene = scene_->summary(),
                        .revision = revision_,
                        .state = state_,
                        .viewers = static_cast<std::uint32_t>(viewers_.size()),

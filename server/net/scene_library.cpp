@@ -16,6 +16,25 @@ namespace relume::net {
 
 namespace fs = std::filesystem;
 
+wire::SceneSummary ServedScene::summary() const {
+    const basis::LightBasis& basis = engine->light_basis();
+    const bool is_haar = basis.kind() == basis::LightBasis::Kind::haar;
+    return {.name = name,
+            .kind = std::string(transport::kKind),
+            .width = engine->image().width,
+            .height = engine->image().height,
+            .basis = std::string(transport::name_of(basis.kind())),
+            .order = is_haar ? std::nullopt : std::optional(basis.order()),
+            .face_resolution = engine->face_resolution(),
+            .columns = static_cast<std::uint32_t>(engine->coefficient_count()),
+            .channels = engine->transport().manifest().colour.channels,
+            .bytes = engine->transport().total_bytes(),
+            .memory_bytes = engine->bytes(),
+            .bake_error = std::nullopt,
+            .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
+                      "budget", "display"}};
+}
+
 void SceneLibrary::open_all(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> directories;

@@ -1,6 +1,7 @@
 // The scenes a server offers: every NAME.relume in one folder.
 #pragma once
 
+#include "protocol/wire/scene_summary.h"
 #include "server/engine/scene.h"
 #include "server/net/sky_pixels.h"
 
@@ -22,6 +23,9 @@ struct ServedScene {
     std::filesystem::path directory;
     std::shared_ptr<const engine::Scene> engine;
     SkyPixels sky;
+
+    // What clients are told of it.
+    [[nodiscard]] wire::SceneSummary summary() const;
 };
 
 // Thread-safe.

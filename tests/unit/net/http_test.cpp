@@ -49,6 +49,11 @@ TEST_F(HttpTest, ListsScenesAndServesOnBesideABrokenOne) {
     EXPECT_EQ(scenes[0]["width"], 40);
     EXPECT_EQ(scenes[0]["height"], 24);
     EXPECT_EQ(scenes[0]["face_resolution"], 8);
+    EXPECT_EQ(scenes[0]["kind"], "image");
+    EXPECT_EQ(scenes[0]["basis"], "haar");
+    EXPECT_EQ(scenes[0]["columns"], 6 * 8 * 8);
+    EXPECT_GT(scenes[0]["memory_bytes"], scenes[0]["bytes"]);
+    EXPECT_FALSE(scenes[0]["edits"].empty());
     EXPECT_GT(scenes[0]["bytes"], 1000);
     expect_serves_on();
 }

@@ -78,13 +78,24 @@ TEST(ClientMessages, TheLimitIsThatOfTheLimits) {
 }
 
 Snapshot busy_snapshot() {
-    Snapshot snapshot{
-        .room = "studio",
-        .scene = {.name = "table", .width = 512, .height = 384, .face_resolution = 64},
-        .revision = 7,
-        .state = {},
-        .viewers = 2,
-        .limits = {}};
+    Snapshot snapshot{.room = "studio",
+                      .scene = {.name = "table",
+                                .kind = "image",
+                                .width = 512,
+                                .height = 384,
+                                .basis = "sh",
+                                .order = 10,
+                                .face_resolution = 64,
+                                .columns = 100,
+                                .channels = 3,
+                                .bytes = 1U << 20,
+                                .memory_bytes = 3U << 20,
+                                .bake_error = 0.008,
+                                .edits = {"environment", "lights"}},
+                      .revision = 7,
+                      .state = {},
+                      .viewers = 2,
+                      .limits = {}};
     snapshot.limits.rooms = 3;
     snapshot.state.environment = {.name = "city", .gain = 0.1, .tint = {0.3, 0.2, 0.1}};
     snapshot.state.blend = {.name = "night", .amount = 0.7};
@@ -170,6 +181,34 @@ TEST(ServerMessages, TextThatIsNotUtf8StillMakesJson) {
     EXPECT_NO_THROW(static_cast<void>(parse_server_message(text_from_message(message))));
     const WireError error(ErrorCode::bad_image, "", "\xff", "an image");
     EXPECT_EQ(json::parse(http_body_from_error(error)).at("error").at("code"), "bad_image");
+}
+
+TEST(SceneSummary, AnOlderServerSaysLess) {
+    const nlohmann::json object = {
+        {"name", "table"}, {"width", 8}, {"height", 4}, {"face_resolution", 16}};
+    const SceneSummary scene = scene_summary_from_json(object, "/scene");
+    EXPECT_EQ(scene.name, "table");
+    EXPECT_EQ(scene.face_resolution, 16U);
+    EXPECT_FALSE(scene.bake_error);
+    for (const char* key : {"name", "width", "height", "face_resolution"}) {
+        nlohmann::json without = object;
+        without.erase(key);
+        EXPECT_EQ(
+            wire_error_of([&] { return scene_summary_from_json(without, "/scene"); }).code(),
+            ErrorCode::missing_field)
+            << key;
+    }
+}
+
+TEST(SceneSummary, WrongTypesAreNamedByTheirPath) {
+    const nlohmann::json object = to_json(busy_snapshot().scene);
+    for (const auto& [key, value] : object.items()) {
+        nlohmann::json wrong = object;
+        wrong[key] = key == "edits" ? nlohmann::json{1} : nlohmann::json{{"a", 1}};
+        const std::string path =
+            wire_error_of([&] { return scene_summary_from_json(wrong, "/scene"); }).path();
+        EXPECT_EQ(path, key == "edits" ? "/scene/edits/0" : "/scene/" + key);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+#include "protocol/wire/scene_summary.h"
+
+#include "protocol/wire/errors.h"
+#include "protocol/wire/json_text.h"
+#include "protocol/wire/limits.h"
+#include "protocol/wire/object_reader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace relume::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kMaxCount = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t count_from(ObjectReader& reader, const char* key) {
+    return static_cast<std::uint32_t>(
+        integer_from_json(reader.require(key), reader.path_to(key), 0, kMaxCount));
+}
+
+// What an older server does not say is left as it is.
+void read_count(ObjectReader& reader, const char* key, std::uint32_t& value) {
+    if (reader.find(key) != nullptr) {
+        value = count_from(reader, key);
+    }
+}
+void read_bytes(ObjectReader& reader, const char* key, std::uint64_t& value) {
+    if (const json* found = reader.find(key)) {
+        value = integer_from_json(*found, reader.path_to(key), 0, kMaxInteger);
+    }
+}
+void read_text(ObjectReader& reader, const char* key, std::string& value) {
+    if (const json* found = reader.find(key)) {
+        value = string_from_json(*found, reader.path_to(key));
+    }
+}
+
+}  // namespace
+
+json to_json(const SceneSummary& scene) {
+    json object = {{"name", scene.name},       {"kind", scene.kind},
+                   {"width", scene.width},     {"height", scene.height},
+                   {"basis", scene.basis},     {"face_resolution", scene.face_resolution},
+                   {"columns", scene.columns}, {"channels", scene.channels},
+                   {"bytes", scene.bytes},     {"memory_bytes", scene.memory_bytes},
+                   {"edits", scene.edits}};
+    if (scene.order) {
+        object["order"] = *scene.order;
+    }
+    if (scene.bake_error) {
+        object["bake_error"] = *scene.bake_error;
+    }
+    return object;
+}
+
+SceneSummary scene_summary_from_json(const json& object, const std::string& path) {
+    ObjectReader reader(object, path);
+    SceneSummary scene{.name = name_from_json(reader.require("name"), reader.path_to("name")),
+                       .width = count_from(reader, "width"),
+                       .height = count_from(reader, "height"),
+                       .order = {},
+                       .face_resolution = count_from(reader, "face_resolution"),
+                       .bake_error = {},
+                       .edits = {}};
+    read_text(reader, "kind", scene.kind);
+    read_text(reader, "basis", scene.basis);
+    read_count(reader, "columns", scene.columns);
+    read_count(reader, "channels", scene.channels);
+    read_bytes(reader, "bytes", scene.bytes);
+    read_bytes(reader, "memory_bytes", scene.memory_bytes);
+    if (reader.find("order") != nullptr) {
+        scene.order = count_from(reader, "order");
+    }
+    if (const json* error = reader.find("bake_error")) {
+        scene.bake_error = number_from_json(*error, reader.path_to("bake_error"), {0, 1e6});
+    }
+    if (const json* edits = reader.find("edits")) {
+        if (!edits->is_array()) {
+            throw WireError(ErrorCode::wrong_type, reader.path_to("edits"), quote(*edits),
+                            "an array of names");
+        }
+        for (std::size_t i = 0; i < edits->size(); ++i) {
+            scene.edits.push_back(string_from_json(
+                (*edits)[i], reader.path_to("edits") + "/" + std::to_string(i)));
+        }
+    }
+    return scene;
+}
+
+}  // namespace relume::wire
