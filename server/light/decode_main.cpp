@@ -1,5 +1,6 @@
 // relume-decode: one image file from standard input, its texels to standard output, and nothing
 // else. Started by sandboxed_decoder.cpp, in a sandbox before it reads the first byte.
+#include "base/program/program.h"
 #include "server/light/decoder_reply.h"
 #include "server/light/environment_error.h"
 #include "server/light/environment_import.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -126,19 +126,16 @@ int decode(const Options& options) {
 
 int main(int argc, char** argv) {
     Options options;
-    CLI::App app{"Decodes one image in a sandbox. Part of relume-server; not for use by hand."};
+    CLI::App app("Decodes one image in a sandbox. Part of relume-server; not for use by hand.",
+                 "relume-decode");
     app.add_option("--projection", options.projection, "empty: by shape");
     app.add_option("--layer", options.layer, "empty: the beauty");
     app.add_option("--max-texels", options.max_texels)->required();
     app.add_option("--max-bytes", options.max_bytes)->required();
     app.add_option("--address-space-bytes", options.sandbox.address_space_bytes)->required();
     app.add_option("--cpu-seconds", options.sandbox.cpu_seconds)->required();
-    CLI11_PARSE(app, argc, argv);
-    try {
+    return relume::program::run_program(app, argc, argv, [&]() -> int {
         Imf::setGlobalThreadCount(0);
         relume::light::run_sandboxed(options.sandbox, [&] { return decode(options); });
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "relume-decode: %s\n", e.what());
-        return EXIT_FAILURE;
-    }
+    });
 }
