@@ -2,6 +2,8 @@
 #include "tests/load/end_to_end.h"
 #include "tests/load/pixels.h"
 
+#include <sys/stat.h>
+
 namespace relume::test {
 namespace {
 
@@ -94,6 +96,46 @@ TEST_F(EndToEnd, WhatCannotBeWrittenIsSaidBeforeTheServerIsAsked) {
         EXPECT_EQ(answer.exit_code, 1);
         EXPECT_EQ(answer.errors.find("scene"), std::string::npos) << answer.errors;
     }
+}
+
+// Opening a pipe that nobody writes to waits for ever.
+TEST_F(EndToEnd, APipeInItsFoldersHoldsNoServer) {
+    for (const char* place : {"odd/pipe.relume", "odd-maps", "odd-page"}) {
+        fs::create_directories(folder() / place);
+    }
+    fs::copy(folder() / "scenes" / "box.relume", folder() / "odd" / "box.relume",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    std::ofstream(folder() / "odd-page" / "index.html") << "<p>a page";
+    for (const char* pipe : {"odd/pipe.relume/manifest.json", "odd-page/pipe.js"}) {
+        ASSERT_EQ(::mkfifo((folder() / pipe).c_str(), 0600), 0) << pipe;
+    }
+    const fs::path port_file = folder() / "odd-port";
+    Program odd(
+        RELUME_SERVER,
+        {"--scenes", in_folder("odd"), "--environments", in_folder("odd-maps"), "--web-root",
+         in_folder("odd-page"), "--listen", "127.0.0.1:0", "--port-file", port_file.string()},
+        folder(), "odd-server");
+    while (!fs::exists(port_file)) {
+        ASSERT_TRUE(odd.is_running()) << odd.errors();
+        std::this_thread::sleep_for(kPoll);
+    }
+    std::string port;
+    std::ifstream(port_file) >> port;
+    std::string scenes;
+    while (scenes.find("box") == std::string::npos) {
+        ASSERT_TRUE(odd.is_running()) << odd.errors();
+        Program client(RELUME_CLIENT, {"scenes", "--server", "127.0.0.1:" + port}, folder(),
+                       "odd-client");
+        static_cast<void>(client.wait());
+        scenes = client.output();
+    }
+    EXPECT_EQ(scenes.find("pipe"), std::string::npos) << scenes;
+    EXPECT_NE(odd.errors().find("found a named pipe"), std::string::npos) << odd.errors();
+    odd.send(SIGTERM);
+    EXPECT_EQ(odd.wait(), 0);
+    EXPECT_EQ(Program(RELUME_BAKE, {"verify", in_folder("odd/pipe.relume")}, folder(), "verify")
+                  .wait(),
+              1);
 }
 
 }  // namespace
