@@ -180,10 +180,13 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
     void take_message(std::string_view text) {
         const wire::ServerMessage message = wire::parse_server_message(text);
         if (const auto* snapshot = std::get_if<wire::Snapshot>(&message)) {
-            open_ = true;
-            scene_ = snapshot->scene;
-            stream_.read_message_max(largest_frame(scene_));
-            listener_.on_snapshot(*snapshot);
+            // Later ones stand in the place of changes, and say nothing else that is new.
+            if (!open_) {
+                open_ = true;
+                scene_ = snapshot->scene;
+                stream_.read_message_max(largest_frame(scene_));
+                listener_.on_snapshot(*snapshot);
+            }
         } else if (const auto* change = std::get_if<wire::Change>(&message)) {
             if (change->edit_id) {
                 clock_.change_received(*change->edit_id, change->revision);

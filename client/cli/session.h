@@ -44,6 +44,7 @@ struct SessionEnd {
 
 // What a session tells; all of it from within Session::run's executor, never concurrently.
 struct SessionListener {
+    // The first one.
     std::function<void(const wire::Snapshot&)> on_snapshot = [](const auto&) {};
     std::function<void(const wire::Change&)> on_change = [](const auto&) {};
     std::function<void(const wire::ErrorMessage&)> on_error = [](const auto&) {};

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -20,6 +21,23 @@ namespace {
         fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(errno)));
 }
 
+// Reads until the span is full; the file may have been cut meanwhile.
+void read_whole(const std::filesystem::path& path, int descriptor, std::span<std::byte> into) {
+    std::size_t at = 0;
+    while (at < into.size()) {
+        const ssize_t count =
+            ::pread(descriptor, into.data() + at, into.size() - at, static_cast<off_t>(at));
+        if (count < 0 && errno != EINTR) {
+            fail(path, "read");
+        }
+        if (count == 0) {
+            throw TransportError(fmt::format("{}: ends after {} bytes, expected {}",
+                                             path.string(), at, into.size()));
+        }
+        at += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    }
+}
+
 std::span<const std::byte> map_descriptor(const std::filesystem::path& path, int descriptor) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) {
@@ -29,12 +47,22 @@ std::span<const std::byte> map_descriptor(const std::filesystem::path& path, int
     if (size == 0) {
         return {};
     }
-    void* address = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0);
+    void* address =
+        ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (address == MAP_FAILED) {
-        fail(path, "map");
+        fail(path, "find memory for");
     }
-    ::madvise(address, size, MADV_WILLNEED);
-    return {static_cast<const std::byte*>(address), size};
+    // Columns are read here and there: fewer pages, fewer misses.
+    ::madvise(address, size, MADV_HUGEPAGE);
+    const std::span<std::byte> bytes{static_cast<std::byte*>(address), size};
+    try {
+        read_whole(path, descriptor, bytes);
+    } catch (...) {
+        ::munmap(address, size);
+        throw;
+    }
+    ::mprotect(address, size, PROT_READ);
+    return bytes;
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
-// A whole file, mapped read-only.
+// A whole file, read into memory of its own, which nobody writes to afterwards.
+//
+// Mapping the file itself would cost no less memory once it has been read, and would give
+// whoever may write to it the process: a file cut short is SIGBUS, and a rewritten one makes
+// lengths that were checked once into nonsense.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +13,7 @@ namespace relume::transport {
 
 class MappedFile {
   public:
-    // Throws TransportError when the file is missing, not a regular file or cannot be mapped.
+    // Throws TransportError when the file is missing, not a regular file or cannot be read.
     explicit MappedFile(const std::filesystem::path& path);
     MappedFile(MappedFile&& other) noexcept;
     MappedFile& operator=(MappedFile&& other) noexcept;

@@ -29,9 +29,24 @@ nlohmann::json parse_json(std::string_view json, std::size_t max_bytes) {
     }
 }
 
+namespace {
+
+// Of a key in a path: who sends keys without end gets them back once, and not in full.
+constexpr std::size_t kMaxPointerKeyBytes = 128;
+
+}  // namespace
+
 std::string pointer_step(std::string_view path, std::string_view key) {
     std::string pointer(path);
     pointer += '/';
+    const bool is_cut = key.size() > kMaxPointerKeyBytes;
+    if (is_cut) {
+        std::size_t end = kMaxPointerKeyBytes;
+        while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xC0U) == 0x80U) {
+            --end;  // within a character of UTF-8
+        }
+        key = key.substr(0, end);
+    }
     for (const char c : key) {
         if (c == '~') {
             pointer += "~0";
@@ -41,7 +56,7 @@ std::string pointer_step(std::string_view path, std::string_view key) {
             pointer += c;
         }
     }
-    return pointer;
+    return is_cut ? pointer + "…" : pointer;
 }
 
 }  // namespace relume::wire

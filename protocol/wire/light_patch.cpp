@@ -77,8 +77,10 @@ json patch_lights(std::map<std::string, AreaLight>& lights,
                             "an id: " + std::string(kNameRule));
         }
         if (light.is_null()) {
-            lights.erase(id);
-            normalised[id] = nullptr;
+            // What is not there cannot be removed, and clients need not hear of it.
+            if (lights.erase(id) != 0) {
+                normalised[id] = nullptr;
+            }
         } else if (json changed = patch_light(lights, id, light, light_path);
                    !changed.empty()) {
             normalised[id] = std::move(changed);

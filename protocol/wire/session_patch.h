@@ -9,8 +9,8 @@
 namespace relume::wire {
 
 // Checks the whole patch, then applies it, and returns it *normalised*: the rotation a unit
-// quaternion, directions of unit length, a new light with all its fields, one budget clearing
-// the other. Normalised patches may be merged with each other and into the state's JSON by
+// quaternion, directions of unit length, a new light with all its fields, no null for a light
+// that is not there, one budget clearing the other. Normalised patches may be merged with each other and into the state's JSON by
 // RFC 7396 alone, and applying one again changes nothing.
 //
 // Throws WireError with a path into the patch, and leaves `state` as it was. Names of

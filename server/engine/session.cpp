@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace relume::engine {
@@ -88,8 +90,10 @@ void Session::advance_together(std::span<SessionTurn> turns) {
     tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
         // Times what it does: others' work must not slip in between.
         tbb::this_task_arena::isolate([&] {
-            intents[i] =
-                turns[i].session->intend({.budget = turns[i].budget, .sessions = turns.size()});
+            intents[i] = turns[i].session->intend(
+                {.budget = turns[i].budget,
+                 .sessions = turns.size(),
+                 .ceiling_milliseconds = turns[i].ceiling_milliseconds});
         });
     });
     PerSession<PlannedTurn> planned;
@@ -130,7 +134,8 @@ Session::Intent Session::intend(const Share& share) {
     if (at_rest(share.budget)) {
         return {};
     }
-    if (lighting_is_new_ ? full_product_fits_one_image(share) : full_product_is_next(share)) {
+    if (lighting_is_new_ ? shows_lighting_before() || full_product_fits_one_image(share)
+                         : full_product_is_next(share)) {
         return {.deed = Deed::full_product, .plan = nullptr};
     }
     return {.deed = Deed::plan, .plan = &next_plan(selection_budget(share))};
@@ -160,11 +165,17 @@ const Plan& Session::next_plan(const SelectionBudget& budget) {
 
 SelectionBudget Session::selection_budget(const Share& share) const {
     if (share.budget.coefficients) {
+        const std::uint64_t all = scene_->transport().total_bytes();
+        const bool ceiled = std::isfinite(share.ceiling_milliseconds);
         return {.columns = *share.budget.coefficients,
-                .bytes = scene_->transport().total_bytes()};
+                .bytes = ceiled ? std::min(all, cost_.bytes_within(share.ceiling_milliseconds,
+                                                                   share.sessions))
+                                : all};
     }
+    const double milliseconds =
+        std::min(share.budget.milliseconds.value_or(0), share.ceiling_milliseconds);
     return {.columns = static_cast<std::uint32_t>(scene_->coefficient_count()),
-            .bytes = cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions)};
+            .bytes = cost_.bytes_within(milliseconds, share.sessions)};
 }
 
 void Session::carry_out(std::span<const PlannedTurn> turns) {
@@ -245,6 +256,14 @@ std::uint64_t Session::product_bytes_per_image(const Share& share) const {
     return product_cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions);
 }
 
+std::uint64_t Session::product_bytes_per_slice(const Share& share) const {
+    const std::uint64_t bytes = product_bytes_per_image(share);
+    return std::isfinite(share.ceiling_milliseconds)
+               ? std::min(bytes, product_cost_.bytes_within(share.ceiling_milliseconds,
+                                                            share.sessions))
+               : bytes;
+}
+
 bool Session::full_product_is_next(const Share& share) const {
     if (full_product_.running() || remaining_ == 0 ||
         share.sessions >= kCompanyForFullProduct || error_.relative_l2() <= kUnseenError) {
@@ -265,11 +284,15 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
     }
     PerSession<FullProduct*> products;
     std::uint64_t slice_bytes = 0;
+    double ceiling = std::numeric_limits<double>::infinity();
     for (const SessionTurn* turn : turns) {
         products.push_back(&turn->session->full_product_);
         slice_bytes =
-            std::max(slice_bytes, turn->session->product_bytes_per_image(
-                                      {.budget = turn->budget, .sessions = sessions}));
+            std::max(slice_bytes, turn->session->product_bytes_per_slice(
+                                      {.budget = turn->budget,
+                                       .sessions = sessions,
+                                       .ceiling_milliseconds = turn->ceiling_milliseconds}));
+        ceiling = std::min(ceiling, turn->ceiling_milliseconds);
     }
     // Those that begin do so where another stands, to be swept together.
     const auto runs =
@@ -295,7 +318,7 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
             products.end());
         bytes += FullProduct::advance_together(std::span(products.data(), products.size()),
                                                slice_bytes);
-    } while (somebody_waits_for_all());
+    } while (somebody_waits_for_all() && stopwatch.milliseconds() < ceiling);
     const double taken = stopwatch.milliseconds();
     for (SessionTurn* turn : turns) {
         turn->session->product_cost_.record_columns(bytes, taken);

@@ -12,6 +12,7 @@
 #include "server/engine/scene.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -35,7 +36,10 @@ class Session;
 struct SessionTurn {
     Session* session = nullptr;
     wire::Budget budget;  // milliseconds: of the whole step, all sessions in it
-    StepReport report;    // what it did
+    // Of one call, whatever the budget, by what the work has been taking: what is left of the
+    // budget then is for the caller to give again.
+    double ceiling_milliseconds = std::numeric_limits<double>::infinity();
+    StepReport report;  // what it did
 };
 
 // Not thread-safe: one thread at a time calls it; inside, work is spread over oneTBB's arena of
@@ -73,6 +77,11 @@ class Session {
     // is met.
     [[nodiscard]] bool at_rest(const wire::Budget& budget) const;
     [[nodiscard]] bool exact() const { return exact_; }
+    // A full product of a new lighting was begun under a ceiling and is not done: until then
+    // image and stated error are of the lighting before.
+    [[nodiscard]] bool shows_lighting_before() const {
+        return lighting_is_new_ && full_product_.running();
+    }
     [[nodiscard]] double stated_error() const;
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
@@ -99,6 +108,7 @@ class Session {
     struct Share {
         wire::Budget budget;
         std::size_t sessions = 1;  // among which its milliseconds are divided
+        double ceiling_milliseconds = std::numeric_limits<double>::infinity();
     };
 
     [[nodiscard]] Intent intend(const Share& share);
@@ -123,6 +133,7 @@ class Session {
     [[nodiscard]] bool full_product_is_next(const Share& share) const;
     [[nodiscard]] bool full_product_fits_one_image(const Share& share) const;
     [[nodiscard]] std::uint64_t product_bytes_per_image(const Share& share) const;
+    [[nodiscard]] std::uint64_t product_bytes_per_slice(const Share& share) const;
     [[nodiscard]] SelectionBudget selection_budget(const Share& share) const;
     void remove_drift(StepReport& report);
 

@@ -1,6 +1,8 @@
-// Who may open sessions and upload: the token, and the pages a browser may come from.
+// Who may open sessions and upload: the token, the pages a browser may come from, and the names
+// under which the server may be asked at all.
 #pragma once
 
+#include "server/net/host_policy.h"
 #include "server/net/http_message.h"
 #include "server/net/origin_policy.h"
 
@@ -13,11 +15,13 @@ namespace relume::net {
 class Access {
   public:
     // An empty token asks for none.
-    Access(std::string token, OriginPolicy origins)
-        : token_(std::move(token)), origins_(std::move(origins)) {}
+    Access(std::string token, OriginPolicy origins, HostPolicy hosts)
+        : token_(std::move(token)), origins_(std::move(origins)), hosts_(std::move(hosts)) {}
 
     // `token=` in the query, or `Authorization: Bearer`.
     [[nodiscard]] bool has_token(const HttpRequest& request) const;
+    // Whatever is asked for.
+    [[nodiscard]] bool allows_host(std::string_view host) const { return hosts_.allows(host); }
     [[nodiscard]] bool allows_origin(const HttpRequest& request) const {
         return origins_.allows(request.origin, request.host);
     }
@@ -29,6 +33,7 @@ class Access {
   private:
     std::string token_;
     OriginPolicy origins_;
+    HostPolicy hosts_;
 };
 
 }  // namespace relume::net

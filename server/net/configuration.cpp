@@ -92,6 +92,9 @@ class OptionSet {
 void add_places(OptionSet& options, Configuration& c) {
     options.add("scenes", c.scenes, "Folder of NAME.relume directories")
         ->check(CLI::ExistingDirectory);
+    options.add_milliseconds("scenes-interval-ms", c.scenes_interval,
+                             "Between two looks for scenes that came, changed or went; 0 looks "
+                             "again on SIGHUP alone");
     options.add("environments", c.environments, "Folder of .hdr and .exr files")
         ->check(CLI::ExistingDirectory);
     options.add_choice(
@@ -113,6 +116,11 @@ void add_access(OptionSet& options, Configuration& c) {
     options.add("token", c.token, "Asked of sessions and uploads; none by default");
     options.add("allow-origin", c.allow_origins,
                 "Origin besides the server's own whose pages may open sessions; * for all");
+    options.add("allow-host", c.allow_hosts,
+                "Name besides the address listened on under which the server may be asked, as "
+                "behind a proxy; * for all");
+    options.add("trusted-proxy", c.trusted_proxies,
+                "Address of a proxy whose X-Forwarded-For says whose request it is");
 }
 
 void add_running(OptionSet& options, Configuration& c) {
@@ -135,6 +143,8 @@ void add_rooms(OptionSet& options, Configuration& c) {
                              "A state unchanged for so long gets its bit-exact image");
     options.add_milliseconds("refinement-interval-ms", room.images.refinement_interval,
                              "Least time between two images that converge");
+    options.add_milliseconds("slice-ceiling-ms", room.images.slice_ceiling,
+                             "Longest that one room relights before another may");
     options.add_count("moving-quality", room.images.moving_jpeg_quality,
                       "JPEG quality while the state changes", 1, 100);
     options.add_count("converging-quality", room.images.converging_jpeg_quality,
@@ -153,6 +163,8 @@ void add_limits(OptionSet& options, Configuration& c) {
     options.add_count("max-lights", limits.lights_per_room, "Area lights in a room", 1, 4096);
     options.add_count("max-clients", limits.clients_per_room, "Clients in a room", 1, kMany);
     options.add_count("max-rooms", limits.rooms, "Rooms", 1, kMany);
+    options.add_count("max-rooms-per-address", c.rooms.rooms_per_address,
+                      "Rooms made by clients of one address", 1, kMany);
     options.add_count("images-in-flight", limits.images_in_flight,
                       "Images sent to a client ahead of its acknowledgement", 1, 64);
     options.add_count("max-upload-bytes", limits.upload_bytes, "Of one uploaded file", 1024,
@@ -172,8 +184,12 @@ void add_connections(OptionSet& options, Configuration& c) {
     ConnectionOptions& connection = c.connection;
     options.add_count("max-connections", connection.connections, "TCP connections", 1,
                       1'000'000);
+    options.add_count("max-connections-per-address", connection.connections_per_address,
+                      "Connections from one address", 1, 1'000'000);
     options.add_count("max-concurrent-uploads", connection.concurrent_uploads,
                       "Uploads read or decoded at once", 1, 1024);
+    options.add_count("max-uploads-per-address", connection.uploads_per_address,
+                      "Of those, from one address", 1, 1024);
     options.add_count("max-request-header-bytes", connection.request_header_bytes,
                       "Of one HTTP request", 1024, 60 * 1024);
     options.add_count("send-buffer-bytes", connection.send_buffer_bytes,
@@ -182,6 +198,10 @@ void add_connections(OptionSet& options, Configuration& c) {
     options.add_milliseconds("request-timeout-ms", connection.request_timeout,
                              "To wait for a request, and to read its header");
     options.add_milliseconds("body-timeout-ms", connection.body_timeout, "To read an upload");
+    options.add_milliseconds("body-grace-ms", connection.body_grace,
+                             "To read an upload, besides what its bytes have earned");
+    options.add_count("min-body-bytes-per-second", connection.body_bytes_per_second,
+                      "Of an upload, after that grace", 1, std::uint64_t{1} << 30);
     options.add_milliseconds("write-timeout-ms", connection.write_timeout,
                              "For one write, until a client counts as not reading");
     options.add_milliseconds("write-grace-ms", connection.write_grace,

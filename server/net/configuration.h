@@ -6,6 +6,7 @@
 #include "server/net/environment_library.h"
 #include "server/net/rooms.h"
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -17,7 +18,8 @@ namespace relume::net {
 
 struct Configuration {
     std::filesystem::path scenes = "scenes";
-    std::filesystem::path environments;                      // empty: the procedural ones alone
+    std::chrono::milliseconds scenes_interval{1000};  // between two looks at their folder
+    std::filesystem::path environments;               // empty: the procedural ones alone
     light::MapCentre centre = light::MapCentre::negative_z;  // of the maps in that folder
     std::filesystem::path web_root;                          // empty: no page
     std::filesystem::path decoder;  // relume-decode; empty: beside the running program
@@ -25,6 +27,8 @@ struct Configuration {
     std::filesystem::path port_file;
     std::string token;
     std::vector<std::string> allow_origins;
+    std::vector<std::string> allow_hosts;
+    std::vector<std::string> trusted_proxies;
     std::size_t io_threads = 2;
     std::size_t workers = 2;  // rooms relit at once
     std::size_t threads = 0;  // of the relighting within; 0: one per core

@@ -3,6 +3,7 @@
 
 #include "protocol/wire/limits.h"
 #include "server/net/access.h"
+#include "server/net/client_address.h"
 #include "server/net/connection_options.h"
 #include "server/net/http_routes.h"
 #include "server/net/metrics.h"
@@ -19,6 +20,7 @@ struct ConnectionServices {
     Uploads& uploads;
     Rooms& rooms;
     const Access& access;
+    const TrustedProxies& proxies;
     const Readiness& readiness;
     Metrics& metrics;
     const wire::Limits& limits;

@@ -1,11 +1,14 @@
 #include "server/net/http_connection.h"
 
 #include "protocol/wire/names.h"
+#include "server/net/request_head.h"
 #include "server/net/websocket_connection.h"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -13,8 +16,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <span>
+#include <stop_token>
 #include <utility>
 
 namespace relume::net {
@@ -23,6 +29,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 
+using asio::experimental::awaitable_operators::operator||;
 using wire::ErrorCode;
 using wire::WireError;
 
@@ -34,58 +41,23 @@ constexpr std::size_t kReadBufferBytes = 64 * 1024;
 constexpr std::size_t kMaxDiscardedBytes = std::size_t{16} << 20;
 constexpr std::chrono::seconds kDiscardTimeout{5};
 
-using HeaderParser = http::request_parser<http::empty_body>;
+// Scripts are the page's own files. Images and connections may be of another server, which the
+// page takes by `?server=`.
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
+    "font-src 'self'; manifest-src 'self'; img-src 'self' data: blob: http: https:; "
+    "connect-src 'self' http: https: ws: wss:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
 using BodyParser = http::request_parser<http::vector_body<unsigned char>>;
-
-std::optional<std::string> field(const HeaderParser& parser, http::field name) {
-    const auto found = parser.get().find(name);
-    return found == parser.get().end() ? std::nullopt
-                                       : std::optional<std::string>(found->value());
-}
-
-HttpMethod method_from(http::verb verb) {
-    switch (verb) {
-        case http::verb::get:
-            return HttpMethod::get;
-        case http::verb::head:
-            return HttpMethod::head;
-        case http::verb::post:
-            return HttpMethod::post;
-        case http::verb::options:
-            return HttpMethod::options;
-        default:
-            return HttpMethod::other;
-    }
-}
-
-HttpReply bad_request(unsigned status,
-                      ErrorCode code,
-                      std::string found,
-                      std::string expected) {
-    return error_reply(status, WireError(code, "", std::move(found), std::move(expected)));
-}
-
-// What is wrong with a request whose header could not be read, if it is the peer's fault.
-std::optional<HttpReply> reply_to_unreadable(const beast::error_code& error) {
-    if (error == http::error::end_of_stream || error == http::error::partial_message ||
-        error.category() != make_error_code(http::error::bad_method).category()) {
-        return std::nullopt;
-    }
-    if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-        return bad_request(431, ErrorCode::too_large, "a larger request header",
-                           "a request header within the limit");
-    }
-    if (error == http::error::body_limit) {
-        return bad_request(413, ErrorCode::too_large, "a larger body",
-                           "a body within the limit for uploads");
-    }
-    return bad_request(400, ErrorCode::unsupported, error.message(), "an HTTP/1.1 request");
-}
 
 class HttpConnection {
   public:
     HttpConnection(asio::ip::tcp::socket socket, const ConnectionServices& services)
-        : stream_(std::move(socket)), services_(services), buffer_(kReadBufferBytes) {}
+        : stream_(std::move(socket)), services_(services), buffer_(kReadBufferBytes) {
+        beast::error_code gone;
+        peer_ = stream_.socket().remote_endpoint(gone).address();
+    }
 
     asio::awaitable<void> run() {
         bool again = true;
@@ -111,12 +83,12 @@ class HttpConnection {
             }
             co_return false;
         }
-        std::optional<HttpReply> refusal = refuse(parser);
-        if (refusal) {
+        std::variant<HttpRequest, HttpReply> head = request_of(parser);
+        if (const HttpReply* const refusal = std::get_if<HttpReply>(&head)) {
             co_await send_last(*refusal, parser);
             co_return false;
         }
-        HttpRequest request = request_from(parser);
+        HttpRequest request = std::get<HttpRequest>(std::move(head));
         origin_ = services_.access.must_name_origin(request) ? request.origin : std::nullopt;
         if (beast::websocket::is_upgrade(parser.get())) {
             co_return co_await upgrade(parser, std::move(request));
@@ -136,40 +108,21 @@ class HttpConnection {
         co_return co_await send(reply, parser, keep_alive);
     }
 
-    // What holds whatever is asked for. `target_` is set if nothing is wrong.
-    std::optional<HttpReply> refuse(const HeaderParser& parser) {
-        const auto& header = parser.get();
-        if (header.find(http::field::transfer_encoding) != header.end()) {
-            // Beast 1.81 does not bound chunk headers, and two lengths are one too many.
-            return bad_request(501, ErrorCode::unsupported, "Transfer-Encoding",
-                               "a body with Content-Length alone");
+    std::variant<HttpRequest, HttpReply> request_of(const HeaderParser& parser) const {
+        std::variant<HttpRequest, HttpReply> head = request_from_head(parser);
+        if (HttpRequest* const request = std::get_if<HttpRequest>(&head)) {
+            // Without a Host field no browser has asked.
+            if (parser.get().count(http::field::host) != 0 &&
+                !services_.access.allows_host(request->host)) {
+                return bad_request(421, ErrorCode::unsupported,
+                                   fmt::format("Host {}", request->host),
+                                   "the address listened on, or a name allowed by "
+                                   "--allow-host");
+            }
+            request->client =
+                quota_key(services_.proxies.client_of(peer_, forwarded_for(parser)));
         }
-        if (header.count(http::field::host) != 1 && header.version() >= 11) {
-            return bad_request(400, ErrorCode::missing_field,
-                               fmt::format("{} Host fields", header.count(http::field::host)),
-                               "one Host field");
-        }
-        const beast::string_view target = header.target();
-        target_ = parse_request_target({target.data(), target.size()});
-        if (!target_) {
-            return bad_request(400, ErrorCode::out_of_range, "a malformed request target",
-                               "an absolute path and query");
-        }
-        return std::nullopt;
-    }
-
-    HttpRequest request_from(const HeaderParser& parser) {
-        HttpRequest request{.method = method_from(parser.get().method()),
-                            .target = *std::move(target_),
-                            .host = field(parser, http::field::host).value_or(""),
-                            .origin = field(parser, http::field::origin),
-                            .authorization = field(parser, http::field::authorization),
-                            .if_none_match = field(parser, http::field::if_none_match),
-                            .content_length = {}};
-        if (const auto length = parser.content_length()) {
-            request.content_length = *length;
-        }
-        return request;
+        return head;
     }
 
     asio::awaitable<HttpReply> answer(HttpRequest request) {
@@ -194,6 +147,8 @@ class HttpConnection {
         } else if (!services_.access.allows_origin(request)) {
             refusal = bad_request(403, ErrorCode::unsupported, *request.origin,
                                   "the server's own origin or an allowed one");
+        } else if (std::optional<HttpReply> fault = fault_of_handshake(parser)) {
+            refusal = std::move(fault);
         } else if (!services_.readiness.ready()) {
             refusal =
                 bad_request(503, ErrorCode::shutting_down, "a server starting or draining",
@@ -221,7 +176,7 @@ class HttpConnection {
         }
         const bool keep_alive = parser.get().keep_alive();
         const std::optional<std::string> expect = field(parser, http::field::expect);
-        stream_.expires_after(services_.options.body_timeout);
+        stream_.expires_after(services_.options.body_grace);
         if (expect && beast::iequals(*expect, "100-continue")) {
             http::response<http::empty_body> go_on(http::status::continue_, 11);
             auto [error, bytes] = co_await http::async_write(stream_, go_on, kNoThrow);
@@ -232,21 +187,59 @@ class HttpConnection {
         }
         // Reserves what the peer announced, which admission and the parser have bounded.
         BodyParser body(std::move(parser));
-        auto [error, bytes] = co_await http::async_read(stream_, buffer_, body, kNoThrow);
-        static_cast<void>(bytes);
-        if (error) {
+        if (!co_await read_body(body)) {
             co_return false;
         }
         stream_.expires_never();
         Uploads& uploads = services_.uploads;
+        std::stop_source stop;
         auto work = [&uploads, upload = std::get<Upload>(std::move(admitted)),
-                     file = body.release().body()]() -> asio::awaitable<HttpReply> {
-            co_return uploads.finish(upload, std::as_bytes(std::span(file)));
+                     file = body.release().body(),
+                     token = stop.get_token()]() -> asio::awaitable<HttpReply> {
+            co_return uploads.finish(upload, std::as_bytes(std::span(file)), token);
         };
-        const HttpReply reply = co_await asio::co_spawn(services_.slow_requests,
-                                                        std::move(work), asio::use_awaitable);
+        const auto done = co_await (
+            asio::co_spawn(services_.slow_requests, std::move(work), asio::use_awaitable) ||
+            stop_when_the_client_ends(stop));
         HeaderParser answered;
-        co_return co_await send(reply, answered, keep_alive);
+        co_return co_await send(std::get<0>(done), answered, keep_alive);
+    }
+
+    // Never returns; is cancelled when the answer is there. One who has ended its side waits
+    // for no answer.
+    asio::awaitable<void> stop_when_the_client_ends(std::stop_source& stop) {
+        auto& socket = stream_.socket();
+        auto [error] = co_await socket.async_wait(asio::socket_base::wait_read, kNoThrow);
+        char byte = 0;
+        beast::error_code ended;
+        if (!error) {
+            socket.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, ended);
+        }
+        if (!error && ended) {
+            stop.request_stop();
+        }
+        asio::steady_timer forever(socket.get_executor(), Clock::time_point::max());
+        co_await forever.async_wait(kNoThrow);
+    }
+
+    // False when the connection has ended, or the bytes came too slowly.
+    asio::awaitable<bool> read_body(BodyParser& body) {
+        const ConnectionOptions& options = services_.options;
+        const Clock::time_point begin = Clock::now();
+        std::uint64_t received = 0;
+        while (!body.is_done()) {
+            const auto earned = std::chrono::milliseconds(received * std::milli::den /
+                                                          options.body_bytes_per_second);
+            stream_.expires_at(begin +
+                               std::min(options.body_timeout, options.body_grace + earned));
+            auto [error, bytes] =
+                co_await http::async_read_some(stream_, buffer_, body, kNoThrow);
+            if (error) {
+                co_return false;
+            }
+            received += bytes;
+        }
+        co_return true;
     }
 
     // True if another request may follow.
@@ -266,6 +259,8 @@ class HttpConnection {
         }
         message.set("X-Content-Type-Options", "nosniff");
         message.set("Referrer-Policy", "no-referrer");
+        message.set("Content-Security-Policy", kContentSecurityPolicy);
+        message.set("X-Frame-Options", "DENY");
         message.set(http::field::vary, "Origin");
         if (origin_) {
             message.set(http::field::access_control_allow_origin, *origin_);
@@ -303,7 +298,7 @@ class HttpConnection {
     beast::tcp_stream stream_;
     const ConnectionServices& services_;
     beast::flat_buffer buffer_;
-    std::optional<RequestTarget> target_;
+    asio::ip::address peer_;
     std::optional<std::string> origin_;  // to name in the answer
 };
 

@@ -24,6 +24,7 @@ struct HttpRequest {
     std::optional<std::string> authorization;
     std::optional<std::string> if_none_match;
     std::optional<std::uint64_t> content_length;
+    std::string client;  // the quota_key of whose request it is
 };
 
 struct HttpReply {

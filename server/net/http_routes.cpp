@@ -1,9 +1,14 @@
 #include "server/net/http_routes.h"
 
+#include "base/text/near_names.h"
+#include "server/net/log_sink.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace relume::net {
 
@@ -145,6 +150,7 @@ HttpReply HttpRoutes::readyz() const {
 
 HttpReply HttpRoutes::metrics() const {
     metrics_.set_environment_bytes(environments_.resident_bytes());
+    metrics_.set_dropped_log_lines(dropped_log_lines());
     HttpReply reply = text_reply(200, metrics_.text());
     reply.content_type = "text/plain; version=0.0.4; charset=utf-8";
     return reply;
@@ -169,10 +175,18 @@ HttpReply HttpRoutes::environments() const {
     return json_reply(200, nlohmann::json{{"environments", std::move(all)}}.dump());
 }
 
+std::string HttpRoutes::expected_scene(std::string_view name) const {
+    std::vector<std::string> known;
+    for (const auto& scene : scenes_.list()) {
+        known.push_back(scene->name);
+    }
+    return text::expected_name(name, known, "scenes");
+}
+
 HttpReply HttpRoutes::thumbnail(std::string_view name) const {
     const std::shared_ptr<const ServedScene> scene = scenes_.find(name);
     if (!scene) {
-        return not_found(name, "the name of a scene listed by /api/scenes");
+        return not_found(name, expected_scene(name));
     }
     std::optional<std::string> image = read_thumbnail(*scene);
     if (!image) {

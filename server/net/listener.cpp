@@ -72,6 +72,7 @@ Listener::Listener(asio::io_context& io, const tcp::endpoint& endpoint)
 }
 
 void Listener::start(const ConnectionServices& services) {
+    by_address_.emplace(services.options.connections_per_address);
     asio::co_spawn(acceptor_.get_executor(), accept_all(services), asio::detached);
 }
 
@@ -96,7 +97,14 @@ asio::awaitable<void> Listener::accept_all(const ConnectionServices& services) {
             co_await pause.async_wait(kNoThrow);
             continue;
         }
-        if (connections_.load() >= services.options.connections) {
+        boost::system::error_code gone;
+        const asio::ip::address peer = socket.remote_endpoint(gone).address();
+        AddressQuota::Place place;
+        if (!services.proxies.trusts(peer)) {
+            place = by_address_->take(quota_key(peer));
+        }
+        if (gone || (!place && !services.proxies.trusts(peer)) ||
+            connections_.load() >= services.options.connections) {
             services.metrics.count_refused_connection();
             continue;  // the socket's destructor closes it
         }
@@ -106,11 +114,16 @@ asio::awaitable<void> Listener::accept_all(const ConnectionServices& services) {
                           ignored);
         ++connections_;
         auto executor = socket.get_executor();
-        asio::co_spawn(executor, serve(std::move(socket), services), asio::detached);
+        asio::co_spawn(executor, serve(std::move(socket), std::move(place), services),
+                       asio::detached);
     }
 }
 
-asio::awaitable<void> Listener::serve(tcp::socket socket, const ConnectionServices& services) {
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a coroutine keeps what it is given
+asio::awaitable<void> Listener::serve(tcp::socket socket,
+                                      AddressQuota::Place place,
+                                      const ConnectionServices& services) {
+    static_cast<void>(place);
     co_await serve_http(std::move(socket), services);
     --connections_;
 }

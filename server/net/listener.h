@@ -1,6 +1,7 @@
 // Takes TCP connections on one address.
 #pragma once
 
+#include "server/net/address_quota.h"
 #include "server/net/connection_services.h"
 
 #include <boost/asio/awaitable.hpp>
@@ -9,6 +10,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -39,13 +41,16 @@ class Listener {
 
   private:
     [[nodiscard]] boost::asio::awaitable<void> accept_all(const ConnectionServices& services);
+    // `place` is held as long as the connection is open.
     [[nodiscard]] boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket,
+                                                     AddressQuota::Place place,
                                                      const ConnectionServices& services);
 
     boost::asio::io_context& io_;
     boost::asio::ip::tcp::acceptor acceptor_;  // on a strand of its own
     boost::asio::ip::tcp::endpoint endpoint_;
     std::atomic<std::size_t> connections_{0};
+    std::optional<AddressQuota> by_address_;  // once started
 };
 
 }  // namespace relume::net

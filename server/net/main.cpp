@@ -1,24 +1,27 @@
-// relume-server: serves relit scenes over HTTP and WebSockets until SIGTERM or SIGINT.
+// relume-server: serves relit scenes over HTTP and WebSockets until SIGTERM or SIGINT; SIGHUP
+// makes it look for new scenes.
 #include "base/files/disk_room.h"
 #include "server/net/configuration.h"
+#include "server/net/log_sink.h"
 #include "server/net/server.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace {
 
 void set_up_log(const std::string& level) {
-    auto logger = spdlog::stderr_logger_mt("relume-server");
+    auto logger = std::make_shared<spdlog::logger>("relume-server",
+                                                   relume::net::make_log_sink(STDERR_FILENO));
     logger->set_pattern("time=%Y-%m-%dT%H:%M:%S.%e%z level=%l event=%v");
     logger->set_level(spdlog::level::from_str(level));
-    logger->flush_on(spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
 }
 
@@ -31,6 +34,7 @@ sigset_t block_signals() {
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     return signals;
 }
@@ -39,15 +43,27 @@ int serve(const relume::net::Configuration& configuration) {
     const sigset_t signals = block_signals();
     relume::net::Server server(configuration);
     int signal = 0;
-    sigwait(&signals, &signal);
+    while (sigwait(&signals, &signal) != 0 || signal == SIGHUP) {
+        server.reload();
+    }
     spdlog::info("signal number={}", signal);
     server.drain();
     return 0;
 }
 
+// What still waits to be logged goes before the end.
+class LogUntilTheEnd {
+  public:
+    LogUntilTheEnd() = default;
+    LogUntilTheEnd(const LogUntilTheEnd&) = delete;
+    LogUntilTheEnd& operator=(const LogUntilTheEnd&) = delete;
+    ~LogUntilTheEnd() { spdlog::shutdown(); }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    const LogUntilTheEnd log;
     try {
         const relume::net::CommandLine line = relume::net::parse_command_line(
             std::span<const char* const>(argv, static_cast<std::size_t>(argc)));

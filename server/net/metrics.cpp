@@ -88,9 +88,11 @@ struct Metrics::Families {
     Gauge& clients = gauge(registry, "relume_clients", "Clients in all rooms");
     Gauge& connections = gauge(registry, "relume_connections", "TCP connections open");
     Gauge& scenes = gauge(registry, "relume_scenes", "Scenes served");
-    Gauge& scene_bytes = gauge(registry, "relume_scene_bytes", "Bytes of transport mapped");
+    Gauge& scene_bytes = gauge(registry, "relume_scene_bytes", "Bytes of transport in memory");
     Gauge& environment_bytes =
         gauge(registry, "relume_environment_bytes", "Bytes of environments kept in memory");
+    Gauge& dropped_log_lines = gauge(
+        registry, "relume_log_lines_dropped", "Lines of the log that nobody took in time");
 };
 
 Metrics::Metrics() : families_(std::make_unique<Families>()) {}
@@ -165,6 +167,9 @@ void Metrics::set_scenes(std::size_t count, std::uint64_t bytes_mapped) {
 }
 void Metrics::set_environment_bytes(std::size_t bytes) {
     families_->environment_bytes.Set(static_cast<double>(bytes));
+}
+void Metrics::set_dropped_log_lines(std::uint64_t count) {
+    families_->dropped_log_lines.Set(static_cast<double>(count));
 }
 
 std::uint64_t Metrics::steps() const {

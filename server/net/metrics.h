@@ -44,6 +44,7 @@ class Metrics {
     void add_connections(int difference);
     void set_scenes(std::size_t count, std::uint64_t bytes_mapped);
     void set_environment_bytes(std::size_t bytes);
+    void set_dropped_log_lines(std::uint64_t count);
 
     // Steps taken by all sessions so far: stands still when every room is at rest.
     [[nodiscard]] std::uint64_t steps() const;

@@ -1,39 +1,46 @@
 #include "server/net/origin_policy.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace relume::net {
 
 namespace {
 
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) ==
-               std::tolower(static_cast<unsigned char>(y));
-    });
-}
-
-bool is_same_origin(std::string_view origin, std::string_view host) {
-    const std::size_t scheme_end = origin.find("://");
-    return scheme_end != std::string_view::npos && !host.empty() &&
-           equal_ignoring_case(origin.substr(scheme_end + 3), host);
+bool is_same_origin(const Origin& origin, std::string_view host) {
+    const std::optional<Authority> own = authority_from_text(host);
+    return own && without_default_port(*own, origin.scheme) == origin.authority;
 }
 
 }  // namespace
 
+OriginPolicy::OriginPolicy(const std::vector<std::string>& allowed) {
+    for (const std::string& text : allowed) {
+        allows_all_ = allows_all_ || text == "*";
+        if (std::optional<Origin> origin = origin_from_text(text)) {
+            allowed_.push_back(*std::move(origin));
+        }
+    }
+}
+
 bool OriginPolicy::allows(std::optional<std::string_view> origin, std::string_view host) const {
-    return !origin || is_same_origin(*origin, host) || allows_cross(origin, host);
+    if (!origin || allows_cross(origin, host)) {
+        return true;
+    }
+    const std::optional<Origin> parsed = origin_from_text(*origin);
+    return parsed && is_same_origin(*parsed, host);
 }
 
 bool OriginPolicy::allows_cross(std::optional<std::string_view> origin,
                                 std::string_view host) const {
-    if (!origin || is_same_origin(*origin, host)) {
+    if (!origin) {
         return false;
     }
-    return std::any_of(allowed_.begin(), allowed_.end(), [&](const std::string& allowed) {
-        return allowed == "*" || equal_ignoring_case(allowed, *origin);
-    });
+    const std::optional<Origin> parsed = origin_from_text(*origin);
+    if (parsed && is_same_origin(*parsed, host)) {
+        return false;
+    }
+    return allows_all_ ||
+           (parsed && std::find(allowed_.begin(), allowed_.end(), *parsed) != allowed_.end());
 }
 
 }  // namespace relume::net

@@ -1,6 +1,8 @@
 // Which pages' scripts may open sessions and upload.
 #pragma once
 
+#include "server/net/authority.h"
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,11 +13,11 @@ namespace relume::net {
 // Immutable.
 class OriginPolicy {
   public:
-    // Besides the server's own origin; "*" stands for all.
-    explicit OriginPolicy(std::vector<std::string> allowed) : allowed_(std::move(allowed)) {}
+    // Besides the server's own origin; "*" stands for all. What is no origin allows nothing.
+    explicit OriginPolicy(const std::vector<std::string>& allowed);
 
     // `origin` is the request's Origin header: no browser sent a request without one on behalf
-    // of another page. `host` is its Host header.
+    // of another page. `host` is its Host header. A scheme's default port is as good as none.
     [[nodiscard]] bool allows(std::optional<std::string_view> origin,
                               std::string_view host) const;
     // The origin is another than the server's own, and allowed: the answer must say so [CORS].
@@ -23,7 +25,8 @@ class OriginPolicy {
                                     std::string_view host) const;
 
   private:
-    std::vector<std::string> allowed_;
+    std::vector<Origin> allowed_;
+    bool allows_all_ = false;
 };
 
 }  // namespace relume::net

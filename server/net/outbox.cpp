@@ -13,6 +13,37 @@ bool closes_at_once(wire::CloseCode code) {
     return code != wire::CloseCode::shutting_down && code != wire::CloseCode::too_many_errors;
 }
 
+std::size_t lights_named_by(const nlohmann::json& patch) {
+    const auto lights = patch.find("lights");
+    return lights == patch.end() ? 0 : lights->size();
+}
+
+// By one patch or the other; both name some.
+std::size_t lights_named_by_both(const nlohmann::json& a, const nlohmann::json& b) {
+    std::size_t count = lights_named_by(a) + lights_named_by(b);
+    const auto first = a.find("lights");
+    const auto second = b.find("lights");
+    if (first != a.end() && second != b.end()) {
+        for (const auto& [id, light] : second->items()) {
+            count -= first->contains(id) ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+// What may become text without a lock.
+struct ItemFromMessage {
+    Outbox::Item operator()(const std::shared_ptr<const wire::Snapshot>& snapshot) const {
+        return wire::text_from_message(*snapshot);
+    }
+    Outbox::Item operator()(SharedImageFrame& image) const { return std::move(image); }
+    Outbox::Item operator()(const Outbox::Close& close) const { return close; }
+    template <typename Message>
+    Outbox::Item operator()(const Message& message) const {
+        return wire::text_from_message(message);
+    }
+};
+
 }  // namespace
 
 // Holds the lock; wakes the taker, if it waits, after letting go of it.
@@ -37,22 +68,41 @@ class Outbox::WakeOnExit {
 Outbox::Outbox(ImageInterest interest, std::size_t images_in_flight)
     : interest_(interest), images_in_flight_(images_in_flight) {}
 
-void Outbox::put_snapshot(std::string text) {
+void Outbox::put_snapshot(std::shared_ptr<const wire::Snapshot> snapshot) {
     const WakeOnExit guard(*this);
-    snapshot_ = std::move(text);
+    snapshot_ = std::move(snapshot);
+    if (change_ && change_->edit_id) {
+        change_->patch = nlohmann::json::object();
+    } else {
+        change_.reset();
+    }
 }
 
-void Outbox::put_change(const wire::Change& change) {
+bool Outbox::put_change(const wire::Change& change) {
     const WakeOnExit guard(*this);
     if (!change_) {
         change_ = change;
-        return;
+        return true;
+    }
+    if (lights_named_by(change_->patch) + lights_named_by(change.patch) > kMaxMergedLights &&
+        lights_named_by_both(change_->patch, change.patch) > kMaxMergedLights) {
+        return false;
     }
     change_->revision = change.revision;
     change_->patch = wire::merge_patches(std::move(change_->patch), change.patch);
     if (change.edit_id) {
         change_->edit_id = change.edit_id;
     }
+    return true;
+}
+
+void Outbox::confirm(std::uint64_t revision, std::uint64_t edit_id) {
+    const WakeOnExit guard(*this);
+    if (!change_) {
+        change_.emplace().patch = nlohmann::json::object();
+    }
+    change_->revision = revision;
+    change_->edit_id = edit_id;
 }
 
 void Outbox::put_error(const wire::ErrorMessage& error) {
@@ -105,42 +155,47 @@ bool Outbox::wants_moving_image() const {
 }
 
 std::optional<Outbox::Item> Outbox::take() {
-    const std::lock_guard lock(mutex_);
-    std::optional<Item> item = take_locked();
-    taker_waits_ = !item;
-    return item;
+    std::optional<Message> message;
+    {
+        const std::lock_guard lock(mutex_);
+        message = take_locked();
+        taker_waits_ = !message;
+    }
+    if (!message) {
+        return std::nullopt;
+    }
+    return std::visit(ItemFromMessage{}, *message);
 }
 
-std::optional<Outbox::Item> Outbox::take_locked() {
+std::optional<Outbox::Message> Outbox::take_locked() {
     if (closed_) {
         return std::nullopt;
     }
     if (close_ && closes_at_once(*close_)) {
         closed_ = true;
-        return Item(Close{*close_});
+        return Close{*close_};
     }
     if (snapshot_) {
-        return Item(*std::exchange(snapshot_, std::nullopt));
+        return std::exchange(snapshot_, nullptr);
     }
     if (change_) {
-        return Item(wire::text_from_message(*std::exchange(change_, std::nullopt)));
+        return *std::exchange(change_, std::nullopt);
     }
     if (!errors_.empty()) {
-        const wire::ErrorMessage error = std::move(errors_.front());
+        wire::ErrorMessage error = std::move(errors_.front());
         errors_.pop_front();
-        return Item(wire::text_from_message(error));
+        return error;
     }
     if (viewers_) {
-        return Item(wire::text_from_message(
-            wire::Viewers{.count = *std::exchange(viewers_, std::nullopt)}));
+        return wire::Viewers{.count = *std::exchange(viewers_, std::nullopt)};
     }
     if (image_ && unacknowledged_.size() < images_in_flight_) {
         unacknowledged_.push_back(image_->header.sequence);
-        return Item(std::move(image_));
+        return std::exchange(image_, nullptr);
     }
     if (close_) {
         closed_ = true;
-        return Item(Close{*close_});
+        return Close{*close_};
     }
     return std::nullopt;
 }

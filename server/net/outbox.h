@@ -1,8 +1,10 @@
 // What waits to be sent to one client. Its size is bounded whatever the client does.
 //
-// Nothing queues up behind a slow reader: unsent changes merge into one, of the viewer count
-// only the last is kept, and the newest image replaces an unsent one. At most
-// `images_in_flight` images are sent before the client acknowledges one.
+// Nothing queues up behind a slow reader: unsent changes merge into one, which gives way to a
+// snapshot before it grows large; of the viewer count only the last is kept, and the newest
+// image replaces an unsent one. At most `images_in_flight` images are sent before the client
+// acknowledges one. Messages become text when they are taken, without a lock held: who puts one
+// never waits for that.
 #pragma once
 
 #include "protocol/wire/messages.h"
@@ -12,6 +14,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,6 +34,8 @@ class Outbox {
     using Item = std::variant<std::string, SharedImageFrame, Close>;
 
     static constexpr std::size_t kMaxQueuedErrors = 32;
+    // All else that a patch can name is of a fixed number.
+    static constexpr std::size_t kMaxMergedLights = 256;
 
     Outbox(ImageInterest interest, std::size_t images_in_flight);
 
@@ -38,8 +43,14 @@ class Outbox {
     // `take` had nothing. Set before the outbox is shared.
     void set_wake(std::function<void()> wake) { wake_ = std::move(wake); }
 
-    void put_snapshot(std::string text);
-    void put_change(const wire::Change& change);
+    // In place of all changes so far. The id of an edit among them, which its author waits for,
+    // is kept, as that of an empty change after the snapshot.
+    void put_snapshot(std::shared_ptr<const wire::Snapshot> snapshot);
+    // False, and nothing done, if the unsent change would then name more than kMaxMergedLights
+    // lights: a snapshot is due. One change alone is always taken.
+    [[nodiscard]] bool put_change(const wire::Change& change);
+    // The edit of this id is in a snapshot that is put instead of its change.
+    void confirm(std::uint64_t revision, std::uint64_t edit_id);
     // More than kMaxQueuedErrors unsent ones close the connection (too_many_errors).
     void put_error(const wire::ErrorMessage& error);
     void put_viewers(std::uint32_t count);
@@ -60,15 +71,21 @@ class Outbox {
     [[nodiscard]] std::optional<Item> take();
 
   private:
+    using Message = std::variant<std::shared_ptr<const wire::Snapshot>,
+                                 wire::Change,
+                                 wire::ErrorMessage,
+                                 wire::Viewers,
+                                 SharedImageFrame,
+                                 Close>;
     class WakeOnExit;
-    [[nodiscard]] std::optional<Item> take_locked();
+    [[nodiscard]] std::optional<Message> take_locked();
 
     const ImageInterest interest_;
     const std::size_t images_in_flight_;
     std::function<void()> wake_;
 
     mutable std::mutex mutex_;
-    std::optional<std::string> snapshot_;
+    std::shared_ptr<const wire::Snapshot> snapshot_;
     std::optional<wire::Change> change_;
     std::deque<wire::ErrorMessage> errors_;
     std::optional<std::uint32_t> viewers_;

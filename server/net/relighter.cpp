@@ -61,9 +61,12 @@ std::shared_ptr<const light::PrefilteredEnvironment> prefiltered(
 
 }  // namespace
 
-Relighter::Relighter(std::shared_ptr<const ServedScene> scene, Metrics& metrics)
+Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
+                     Metrics& metrics,
+                     Clock::duration ceiling)
     : scene_(std::move(scene)),
       metrics_(metrics),
+      ceiling_ms_(milliseconds(ceiling)),
       session_(scene_->engine, wire::Strategy{}),
       composer_(std::make_shared<FrameComposer>(
           scene_->sky, scene_->engine->image().width, scene_->engine->image().height)) {}
@@ -93,6 +96,8 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     metrics_.observe_lighting(seconds(spent));
     blend(lighting_ms_, milliseconds(spent));
     lighting_is_new_ = true;
+    spent_ms_ = 0;
+    spent_columns_ = 0;
     relight_time_ += spent;
     return problems;
 }
@@ -127,7 +132,8 @@ void Relighter::advance_together(std::span<Relighter* const> relighters) {
     std::vector<engine::SessionTurn> turns;
     for (Relighter* relighter : relighters) {
         turns.push_back({.session = &relighter->session_,
-                         .budget = relighter->budget_for_relighting(relighters.size()),
+                         .budget = relighter->budget_for_slice(relighters.size()),
+                         .ceiling_milliseconds = relighter->ceiling_ms_,
                          .report = {}});
     }
     engine::Session::advance_together(turns);
@@ -141,6 +147,8 @@ void Relighter::stepped(const engine::StepReport& step, Clock::duration spent) {
     lighting_is_new_ = false;
     metrics_.count_step(step, seconds(spent));
     relight_time_ += spent;
+    spent_ms_ += milliseconds(spent);
+    spent_columns_ += step.applied;
     applied_ += step.applied;
     remaining_ = step.remaining;
     image_changed_ = image_changed_ || step.image_changed;
@@ -156,6 +164,36 @@ wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
             rounds * (compose_ms_ + beside_ms_ + (lighting_is_new_ ? lighting_ms_ : 0));
         budget.milliseconds =
             std::max(kLeastShare * *budget.milliseconds, *budget.milliseconds - taken);
+    }
+    return budget;
+}
+
+bool Relighter::budget_is_spent() const {
+    // So much of a slice.
+    constexpr double kNotWorthASlice = 0.25;
+    // The largest budget in milliseconds that a state can have.
+    constexpr double kLongestImageMs = 1000;
+    if (at_rest()) {
+        return true;
+    }
+    if (shows_state_before()) {
+        return false;
+    }
+    if (state_->budget.coefficients) {
+        return spent_columns_ >= *state_->budget.coefficients || spent_ms_ >= kLongestImageMs;
+    }
+    const double whole = budget_for_relighting(1).milliseconds.value_or(0);
+    return spent_ms_ > 0 &&
+           (whole <= ceiling_ms_ || whole - spent_ms_ < kNotWorthASlice * ceiling_ms_);
+}
+
+wire::Budget Relighter::budget_for_slice(std::size_t sessions) const {
+    wire::Budget budget = budget_for_relighting(sessions);
+    if (budget.coefficients && spent_columns_ < *budget.coefficients) {
+        *budget.coefficients -= spent_columns_;
+    }
+    if (budget.milliseconds && spent_ms_ < *budget.milliseconds) {
+        *budget.milliseconds -= spent_ms_;
     }
     return budget;
 }

@@ -31,7 +31,10 @@ struct ImageStamp {
 // Not thread-safe: a room calls it from one worker at a time.
 class Relighter {
   public:
-    Relighter(std::shared_ptr<const ServedScene> scene, Metrics& metrics);
+    // `ceiling`: of one call of advance_together.
+    Relighter(std::shared_ptr<const ServedScene> scene,
+              Metrics& metrics,
+              Clock::duration ceiling);
 
     // What the image is to show from now on; only what differs from before is computed anew. An
     // environment that cannot be decoded is black, and named in the result.
@@ -40,8 +43,13 @@ class Relighter {
 
     // One image's worth of relighting for each, all of one scene and not at rest, in one sweep:
     // the state's milliseconds less what lighting, composing and encoding have been taking, so
-    // that the images are ready when they are over.
+    // that the images are ready when they are over; but no more than the ceiling at once, so
+    // that a larger budget takes several calls.
     static void advance_together(std::span<Relighter* const> relighters);
+    // The state's image holds what its budget allows, and may be shown.
+    [[nodiscard]] bool budget_is_spent() const;
+    // The image is still of the state before.
+    [[nodiscard]] bool shows_state_before() const { return session_.shows_lighting_before(); }
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
     [[nodiscard]] double stated_error() const { return session_.stated_error(); }
@@ -64,9 +72,13 @@ class Relighter {
     void compose(wire::ImageEncoding encoding);
     // For relighting, of all the milliseconds that so many sessions take together.
     [[nodiscard]] wire::Budget budget_for_relighting(std::size_t sessions) const;
+    // Of that budget, what the slices since the state was set have left; all of it again once
+    // they have left none.
+    [[nodiscard]] wire::Budget budget_for_slice(std::size_t sessions) const;
 
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
+    const double ceiling_ms_;
     engine::Session session_;
     std::shared_ptr<FrameComposer> composer_;
 
@@ -84,6 +96,9 @@ class Relighter {
     bool lighting_is_new_ = false;
 
     bool image_changed_ = true;
+    // Since the state was set:
+    double spent_ms_ = 0;
+    std::uint32_t spent_columns_ = 0;
     // Since the last image:
     Clock::duration relight_time_{};
     std::uint32_t applied_ = 0;

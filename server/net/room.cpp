@@ -42,7 +42,7 @@ bool Room::join(const SharedOutbox& viewer) {
     viewers_.push_back(viewer);
     empty_since_.reset();
     metrics_.add_clients(1);
-    viewer->put_snapshot(snapshot_text_locked());
+    viewer->put_snapshot(snapshot_locked());
     broadcast_viewers_locked();
     if (settled_frame_) {
         viewer->put_image(settled_frame_);
@@ -64,8 +64,8 @@ void Room::leave(const SharedOutbox& viewer) {
     }
 }
 
-std::string Room::snapshot_text_locked() const {
-    return wire::text_from_message(
+std::shared_ptr<const wire::Snapshot> Room::snapshot_locked() const {
+    return std::make_shared<const wire::Snapshot>(
         wire::Snapshot{.room = name_,
                        .scene = scene_->summary(),
                        .revision = revision_,
@@ -100,9 +100,19 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
         untaken_edit_ = read_at;
     }
     metrics_.count_edit();
+    std::shared_ptr<const wire::Snapshot> snapshot;
     for (const SharedOutbox& viewer : viewers_) {
         change.edit_id = viewer.get() == &author ? std::optional(edit.id) : std::nullopt;
-        viewer->put_change(change);
+        if (viewer->put_change(change)) {
+            continue;
+        }
+        if (!snapshot) {
+            snapshot = snapshot_locked();
+        }
+        viewer->put_snapshot(snapshot);
+        if (change.edit_id) {
+            viewer->confirm(change.revision, *change.edit_id);
+        }
     }
     threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *untaken_edit_);
 }
@@ -233,20 +243,23 @@ std::optional<RoomSlice> Room::begin_slice() {
     running_ = true;
     RoomSlice slice;
     slice.begun_at = Clock::now();
-    slice.revision = revision_;
-    slice.state_changed = relit_revision_ != revision_;
+    slice.state_changed = relit_revision_ != revision_ && !image_in_the_making_;
     if (slice.state_changed) {
         slice.state = state_;
         slice.environments = environments_;
         relit_revision_ = revision_;
     }
-    if (!unshown_edit_) {
-        unshown_edit_ = untaken_edit_;
+    slice.revision = relit_revision_.value_or(revision_);
+    if (!image_in_the_making_) {
+        if (!unshown_edit_) {
+            unshown_edit_ = untaken_edit_;
+        }
+        untaken_edit_.reset();
     }
-    untaken_edit_.reset();
     slice.first_image_due = unshown_edit_.has_value();
     slice.only_picture_is_missing = slice.first_image_due && !slice.state_changed &&
-                                    !encoding_ && viewer_wants_moving_locked();
+                                    !image_in_the_making_ && !encoding_ &&
+                                    viewer_wants_moving_locked();
     slice.edit_read_at = unshown_edit_.value_or(answered_edit_);
     slice.settle_at = last_edit_ + options_.settle_delay;
     slice.settled_image_due = settled_frame_ == nullptr;
@@ -271,6 +284,7 @@ void Room::end_slice(const RoomSlice& slice, SliceResult result) {
     running_ = false;
     pace_.slice_took(Clock::now() - slice.begun_at);
     at_rest_ = result.at_rest;
+    image_in_the_making_ = slice.first_image_due && !result.image_is_complete;
     for (const wire::ErrorMessage& problem : result.problems) {
         metrics_.count_error(problem.code);
         for (const SharedOutbox& viewer : viewers_) {
@@ -333,7 +347,10 @@ void Room::queue_next_slice_locked() {
     if (viewers_.empty()) {
         return;
     }
-    if (revision_ != relit_revision_) {
+    if (image_in_the_making_) {
+        threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
+                                 unshown_edit_.value_or(Clock::now()));
+    } else if (revision_ != relit_revision_) {
         threads_.workers.enqueue(shared_from_this(), WorkPriority::edit,
                                  untaken_edit_.value_or(Clock::now()));
     } else if (!at_rest_) {
@@ -356,6 +373,7 @@ void Room::fail(const std::string& reason) {
                                    .edit_id = {}};
     const std::lock_guard lock(mutex_);
     running_ = false;
+    image_in_the_making_ = false;
     unshown_edit_.reset();
     metrics_.count_error(error.code);
     for (const SharedOutbox& viewer : viewers_) {

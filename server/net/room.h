@@ -106,7 +106,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     void fail(const std::string& reason);
     void queue_next_slice_locked();
     void broadcast_viewers_locked();
-    [[nodiscard]] std::string snapshot_text_locked() const;
+    [[nodiscard]] std::shared_ptr<const wire::Snapshot> snapshot_locked() const;
 
     const std::string name_;
     const std::shared_ptr<const ServedScene> scene_;
@@ -125,6 +125,9 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     bool running_ = false;
     bool encoding_ = false;
     bool at_rest_ = false;  // as the last slice left it
+    // An edit's image has had a part of its budget: it keeps the state it began with, and those
+    // of edits that have come since wait for it.
+    bool image_in_the_making_ = false;
     std::optional<std::uint64_t> relit_revision_;
     // When the earliest edit was read that no slice has taken, and that one has taken but no
     // picture shows; and the edit that the latest picture answers.

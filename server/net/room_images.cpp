@@ -11,7 +11,7 @@ RoomImages::RoomImages(std::shared_ptr<const ServedScene> scene,
 
 std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
     if (!relighter_) {
-        relighter_ = std::make_unique<Relighter>(scene_, metrics_);
+        relighter_ = std::make_unique<Relighter>(scene_, metrics_, options_.slice_ceiling);
     }
     relighter_->takes_besides(slice.beside_ms);
     if (!slice.state_changed) {
@@ -27,6 +27,7 @@ Relighter* RoomImages::next_to_relight() {
 SliceResult RoomImages::end(const RoomSlice& slice) {
     SliceResult result;
     result.at_rest = relighter_->at_rest();
+    result.image_is_complete = relighter_->budget_is_spent();
     if (!slice.encoder_is_free) {
         return result;
     }
@@ -51,11 +52,14 @@ SliceResult RoomImages::end(const RoomSlice& slice) {
 }
 
 bool RoomImages::moving_image_is_due(const RoomSlice& slice, Clock::time_point now) const {
-    if (!slice.viewer_wants_moving || !relighter_->image_changed()) {
+    if (!slice.viewer_wants_moving || !relighter_->image_changed() ||
+        relighter_->shows_state_before()) {
         return false;
     }
-    return slice.first_image_due || relighter_->at_rest() ||
-           now - last_image_at_ >= options_.refinement_interval ||
+    if (slice.first_image_due) {
+        return relighter_->budget_is_spent();
+    }
+    return relighter_->at_rest() || now - last_image_at_ >= options_.refinement_interval ||
            relighter_->stated_error() <= last_image_error_ / 2;
 }
 

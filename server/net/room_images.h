@@ -16,6 +16,8 @@ namespace relume::net {
 struct ImageOptions {
     // While an image converges, the least time between two of them.
     std::chrono::milliseconds refinement_interval{33};
+    // The longest that a slice relights, whatever a room's budget: others wait no longer.
+    std::chrono::milliseconds slice_ceiling{16};
     int moving_jpeg_quality = 80;
     int converging_jpeg_quality = 95;
 };

@@ -18,11 +18,11 @@ struct RoomSlice {
     bool state_changed = false;
     wire::SessionState state;  // set if it changed
     NamedEnvironments environments;
-    std::uint64_t revision = 0;
+    std::uint64_t revision = 0;  // of the state that is relit
     Clock::time_point begun_at;
     Clock::time_point edit_read_at;
     Clock::time_point settle_at;
-    bool first_image_due = false;  // of an edit
+    bool first_image_due = false;  // of an edit, once its budget is spent
     // An edit has been relit when the encoder was busy or no viewer ready, and now both are.
     bool only_picture_is_missing = false;
     bool settled_image_due = false;
@@ -37,6 +37,8 @@ struct SliceResult {
     std::vector<wire::ErrorMessage> problems;
     std::optional<Picture> picture;
     bool at_rest = false;
+    // All of the budget has gone into the image of the state.
+    bool image_is_complete = true;
 };
 
 }  // namespace relume::net

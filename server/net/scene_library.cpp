@@ -4,11 +4,13 @@
 #include "base/files/regular_file.h"
 #include "protocol/transport/transport.h"
 #include "protocol/wire/names.h"
+#include "server/net/folder_stamp.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -35,12 +37,15 @@ wire::SceneSummary ServedScene::summary() const {
                       "budget", "display"}};
 }
 
-void SceneLibrary::open_all(const fs::path& folder) {
+namespace {
+
+std::vector<fs::path> scene_directories(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> directories;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
-        if (entry->path().extension() == ".relume" && entry->is_directory(error)) {
+        std::error_code not_there;  // it may have gone meanwhile
+        if (entry->path().extension() == ".relume" && entry->is_directory(not_there)) {
             directories.push_back(entry->path());
         }
     }
@@ -49,18 +54,55 @@ void SceneLibrary::open_all(const fs::path& folder) {
             fmt::format("cannot list the scenes in {}: {}", folder.string(), error.message()));
     }
     std::sort(directories.begin(), directories.end());
+    return directories;
+}
+
+}  // namespace
+
+bool SceneLibrary::refresh(const fs::path& folder, Patience patience) {
+    std::vector<fs::path> directories = scene_directories(folder);
     if (directories.size() > kMaxScenes) {
-        spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
-                     directories.size(), kMaxScenes);
+        if (patience == Patience::none) {
+            spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
+                         directories.size(), kMaxScenes);
+        }
         directories.resize(kMaxScenes);
     }
     for (const fs::path& directory : directories) {
-        try {
-            open(directory);
-        } catch (const std::exception& failure) {
-            spdlog::error("scene_broken directory={:?} reason={:?}", directory.string(),
-                          failure.what());
+        seen_.try_emplace(directory);
+    }
+    bool changed = false;
+    for (auto it = seen_.begin(); it != seen_.end();) {
+        auto& [directory, seen] = *it;
+        const std::uint64_t stamp =
+            std::binary_search(directories.begin(), directories.end(), directory)
+                ? folder_stamp(directory)
+                : 0;
+        const bool settled = patience == Patience::none || stamp == seen.stamp;
+        seen.stamp = stamp;
+        if (settled && stamp != seen.followed_stamp) {
+            seen.followed_stamp = stamp;
+            changed = follow(directory) || changed;
         }
+        it = seen.stamp == 0 && seen.followed_stamp == 0 ? seen_.erase(it) : std::next(it);
+    }
+    return changed;
+}
+
+bool SceneLibrary::follow(const fs::path& directory) {
+    if (seen_.at(directory).stamp == 0) {
+        const std::lock_guard lock(mutex_);
+        spdlog::info("scene_gone directory={:?}", directory.string());
+        return scenes_.erase(directory.stem().string()) != 0;
+    }
+    try {
+        open(directory);
+        return true;
+    } catch (const std::exception& failure) {
+        spdlog::error("scene_broken directory={:?} reason={:?} served_as_before={}",
+                      directory.string(), failure.what(),
+                      find(directory.stem().string()) != nullptr);
+        return false;
     }
 }
 
@@ -74,7 +116,7 @@ void SceneLibrary::open(const fs::path& directory) {
         transport::Transport::open(directory);
     SkyPixels sky(*transport);
     const std::uint64_t bytes = transport->total_bytes();
-    auto scene = std::make_shared<const ServedScene>(
+    std::shared_ptr<const ServedScene> scene = std::make_shared<const ServedScene>(
         ServedScene{.name = name,
                     .directory = directory,
                     .engine = std::make_shared<const engine::Scene>(std::move(transport)),
@@ -85,7 +127,7 @@ void SceneLibrary::open(const fs::path& directory) {
         name, image.width, image.height, scene->engine->face_resolution(), bytes,
         scene->engine->bytes());
     const std::lock_guard lock(mutex_);
-    scenes_.insert_or_assign(name, std::move(scene));
+    scenes_[name].swap(scene);  // the former one, if it was the last hold, ends after the lock
 }
 
 std::shared_ptr<const ServedScene> SceneLibrary::find(std::string_view name) const {

@@ -17,7 +17,8 @@
 
 namespace relume::net {
 
-// Immutable once made.
+// Immutable once made, and independent of the files it was made from: a scene whose directory
+// is replaced or removed lives as long as somebody holds it.
 struct ServedScene {
     std::string name;
     std::filesystem::path directory;
@@ -34,10 +35,16 @@ class SceneLibrary {
     static constexpr std::size_t kMaxScenes = 1024;
     static constexpr std::size_t kMaxThumbnailBytes = std::size_t{4} << 20;
 
-    // Opens and checks every scene of the folder, one after another, each in parallel within.
-    // One that cannot be opened is named in the log and left out. Throws std::runtime_error if
-    // the folder itself cannot be read.
-    void open_all(const std::filesystem::path& folder);
+    // Whether a change must look the same at two refreshes before it is followed: a directory
+    // that is still being copied is not opened at every look.
+    enum class Patience : std::uint8_t { none, until_settled };
+
+    // Offers what lies in the folder now: opens and checks what is new or has changed, one
+    // after another, each in parallel within; forgets what is gone. One that cannot be opened
+    // is named in the log once, and left out or offered on as it was. True if anything is
+    // offered that was not, or the other way round. Throws std::runtime_error if the folder
+    // itself cannot be read. One thread at a time refreshes, while others ask.
+    bool refresh(const std::filesystem::path& folder, Patience patience = Patience::none);
 
     // By name; null when there is none.
     [[nodiscard]] std::shared_ptr<const ServedScene> find(std::string_view name) const;
@@ -46,8 +53,15 @@ class SceneLibrary {
     [[nodiscard]] std::uint64_t total_bytes() const;
 
   private:
+    // Of a directory, at the last refresh.
+    struct Seen {
+        std::uint64_t stamp = 0;  // 0: it is gone
+        std::uint64_t followed_stamp = 0;
+    };
+    [[nodiscard]] bool follow(const std::filesystem::path& directory);
     void open(const std::filesystem::path& directory);
 
+    std::map<std::filesystem::path, Seen> seen_;  // of who refreshes
     mutable std::mutex mutex_;
     std::map<std::string, std::shared_ptr<const ServedScene>, std::less<>> scenes_;
 };

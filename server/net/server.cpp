@@ -3,8 +3,10 @@
 #include "base/files/atomic_file.h"
 #include "server/engine/band_images.h"
 #include "server/net/access.h"
+#include "server/net/decoder_check.h"
 #include "server/net/http_routes.h"
 #include "server/net/listener.h"
+#include "server/net/scene_watcher.h"
 #include "server/net/static_files.h"
 #include "server/net/upload.h"
 #include "server/net/worker_pool.h"
@@ -17,6 +19,7 @@
 #include <spdlog/spdlog.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -48,6 +51,7 @@ UploadOptions upload_options_from(const Configuration& configuration) {
     return {.file_bytes = configuration.limits.upload_bytes,
             .texels = configuration.connection.upload_texels,
             .concurrent = configuration.connection.concurrent_uploads,
+            .per_address = configuration.connection.uploads_per_address,
             .memory_bytes = configuration.environment_bounds.upload_memory_bytes,
             .decoder = configuration.decoder};
 }
@@ -60,7 +64,11 @@ struct Server::Parts {
         : configuration(c),
           environments(c.environment_bounds),
           files(files_from(c.web_root)),
-          access(c.token, OriginPolicy(c.allow_origins)),
+          access(
+              c.token,
+              OriginPolicy(c.allow_origins),
+              HostPolicy(c.listen, endpoint_from_address(c.listen).address(), c.allow_hosts)),
+          proxies(c.trusted_proxies),
           io(static_cast<int>(c.io_threads)),
           keep_running(io.get_executor()),
           workers(c.workers, {.edits = 1, .refinements = engine::kMaxBatchMembers}),
@@ -77,6 +85,7 @@ struct Server::Parts {
                    uploads,
                    *rooms,
                    access,
+                   proxies,
                    readiness,
                    metrics,
                    configuration.limits,
@@ -91,6 +100,7 @@ struct Server::Parts {
     EnvironmentLibrary environments;
     StaticFiles files;
     Access access;
+    TrustedProxies proxies;
     // Outlives all that holds one of its executors: outboxes in rooms, handlers of slow
     // requests.
     asio::io_context io;
@@ -104,26 +114,31 @@ struct Server::Parts {
     ConnectionServices services;
     Listener listener;
     std::vector<std::jthread> io_threads;
-    std::jthread opener;
+    std::optional<SceneWatcher> watcher;
     bool drained = false;
 
-    void open_scenes();
+    void scenes_are_open();
+    void count_scenes();
     void warm_up();
     void wait_for(Clock::time_point deadline, const std::function<bool()>& done) const;
 };
 
-void Server::Parts::open_scenes() {
-    try {
-        scenes.open_all(configuration.scenes);
-    } catch (const std::exception& failure) {
-        spdlog::error("scenes_unreadable reason={:?}", failure.what());
-    }
+void Server::Parts::count_scenes() {
+    metrics.set_scenes(scenes.list().size(), scenes.total_bytes());
+}
+
+void Server::Parts::scenes_are_open() {
     const std::size_t count = scenes.list().size();
-    metrics.set_scenes(count, scenes.total_bytes());
+    count_scenes();
     if (count == 0) {
         spdlog::error("no_scene folder={:?}", configuration.scenes.string());
     }
     warm_up();
+    try {
+        check_decoder(configuration.decoder);
+    } catch (const std::runtime_error& failure) {
+        spdlog::error("uploads_fail reason={:?}", failure.what());
+    }
     spdlog::info("ready scenes={} environments={}", count, environments.list().size());
     readiness.set_ready();
 }
@@ -163,7 +178,15 @@ Server::Server(const Configuration& configuration)
     for (std::size_t i = 0; i < configuration.io_threads; ++i) {
         parts.io_threads.emplace_back([&parts] { parts.io.run(); });
     }
-    parts.opener = std::jthread([&parts] { parts.open_scenes(); });
+    parts.watcher.emplace(
+        parts.scenes,
+        SceneWatcher::Options{.folder = configuration.scenes,
+                              .interval = configuration.scenes_interval},
+        [&parts] { parts.scenes_are_open(); },
+        [&parts] {
+            parts.count_scenes();
+            parts.rooms->drop_outdated();
+        });
 }
 
 Server::~Server() {
@@ -176,6 +199,11 @@ std::uint16_t Server::port() const {
 
 void Server::wait_until_started() const {
     parts_->readiness.wait_until_started();
+}
+
+void Server::reload() {
+    spdlog::info("reload");
+    parts_->watcher->look_now();
 }
 
 const Metrics& Server::metrics() const {
@@ -193,6 +221,7 @@ void Server::drain() {
     parts.readiness.set_draining();
     parts.listener.stop();
     parts.rooms->stop_edits();
+    parts.uploads.stop();
     parts.wait_for(begin + bound / 2, [&] { return !parts.rooms->has_pending_edit(); });
     parts.rooms->close_all(wire::CloseCode::shutting_down);
     parts.wait_for(begin + bound, [&] { return parts.listener.connections() == 0; });
@@ -203,7 +232,7 @@ void Server::drain() {
     parts.slow_requests.join();
     parts.workers.stop();
     parts.encoders.stop();
-    parts.opener = {};
+    parts.watcher.reset();
     spdlog::info("drained connections_cut={} milliseconds={:.0f}", cut,
                  milliseconds(Clock::now() - begin));
 }
@@ -218,8 +247,9 @@ void check_configuration(const Configuration& configuration) {
                         configuration.rooms.environment));
     }
     static_cast<void>(files_from(configuration.web_root));
+    check_decoder(configuration.decoder);
     SceneLibrary scenes;
-    scenes.open_all(configuration.scenes);
+    scenes.refresh(configuration.scenes);
     if (scenes.list().empty()) {
         throw std::runtime_error(
             fmt::format("no scene in {} can be served", configuration.scenes.string()));

@@ -26,6 +26,9 @@ class Server {
     void wait_until_started() const;
     [[nodiscard]] const Metrics& metrics() const;
 
+    // Looks at the folder of scenes again, now.
+    void reload();
+
     // Takes no more connections and edits, sends the images that edits wait for, closes all
     // sessions (1001), and ends all threads, in at most the time configured.
     void drain();

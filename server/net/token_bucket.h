@@ -10,8 +10,9 @@ class TokenBucket {
   public:
     TokenBucket(double tokens_per_second, double burst, Clock::time_point now);
 
-    // True, and one token fewer, if there is one.
-    [[nodiscard]] bool take(Clock::time_point now);
+    // True, and so many tokens fewer, if there are as many; more than the burst are never asked
+    // of it.
+    [[nodiscard]] bool take(Clock::time_point now, double tokens = 1);
 
   private:
     double tokens_per_second_;

@@ -53,7 +53,7 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
         return error_reply(400, WireError(ErrorCode::out_of_range, "name", *name,
                                           std::string(wire::kNameRule)));
     }
-    Upload upload{.name = *name, .options = {}, .place = {}};
+    Upload upload{.name = *name, .options = {}, .place = {}, .place_of_address = {}};
     if (const auto projection = request.target.parameter("projection")) {
         upload.options.projection = light::projection_from_string(*projection);
         if (!upload.options.projection) {
@@ -93,14 +93,21 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
     } catch (const WireError& refusal) {
         return error_reply(409, refusal);
     }
-    if (in_progress_->fetch_add(1) >= options_.concurrent) {
-        in_progress_->fetch_sub(1);
-        HttpReply reply = error_reply(
-            503, WireError(ErrorCode::too_many, "",
-                           fmt::format("{} uploads in progress", options_.concurrent),
-                           "this request again in a moment"));
+    const auto busy = [](std::size_t count, const char* whose) {
+        HttpReply reply =
+            error_reply(503, WireError(ErrorCode::too_many, "",
+                                       fmt::format("{} uploads{} in progress", count, whose),
+                                       "this request again in a moment"));
         reply.headers.emplace_back("Retry-After", "1");
         return reply;
+    };
+    upload.place_of_address = by_address_.take(request.client);
+    if (!upload.place_of_address) {
+        return busy(options_.per_address, " from this address");
+    }
+    if (in_progress_->fetch_add(1) >= options_.concurrent) {
+        in_progress_->fetch_sub(1);
+        return busy(options_.concurrent, "");
     }
     upload.place =
         std::shared_ptr<void>(nullptr, [count = in_progress_](void*) { count->fetch_sub(1); });
@@ -110,9 +117,13 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
 HttpReply Uploads::finish(const Upload& upload,
                           std::span<const std::byte> body,
                           std::stop_token stop) {
+    std::stop_source either;
+    const auto end = [&either] { either.request_stop(); };
+    const std::stop_callback with_client(std::move(stop), end);
+    const std::stop_callback with_server(stop_.get_token(), end);
     try {
         light::ImportedEnvironment imported =
-            light::decode_in_child(body, upload.options, decode_limits(std::move(stop)));
+            light::decode_in_child(body, upload.options, decode_limits(either.get_token()));
         const nlohmann::json answer{{"name", upload.name},
                                     {"width", imported.map.width()},
                                     {"height", imported.map.height()},

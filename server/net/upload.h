@@ -4,6 +4,7 @@
 #include "server/light/environment_import.h"
 #include "server/light/sandboxed_decoder.h"
 #include "server/net/access.h"
+#include "server/net/address_quota.h"
 #include "server/net/connection_options.h"
 #include "server/net/environment_library.h"
 #include "server/net/http_message.h"
@@ -26,12 +27,14 @@ struct Upload {
     std::string name;
     light::ImportOptions options;
     std::shared_ptr<void> place;
+    AddressQuota::Place place_of_address;
 };
 
 struct UploadOptions {
     std::uint64_t file_bytes = 0;
     std::uint64_t texels = 0;
     std::size_t concurrent = 0;
+    std::size_t per_address = 0;     // of the concurrent ones
     std::uint64_t memory_bytes = 0;  // all uploads, decoded; and beside its programs a decoder
     std::filesystem::path decoder;   // relume-decode; empty: beside the running program
 };
@@ -40,7 +43,10 @@ struct UploadOptions {
 class Uploads {
   public:
     Uploads(EnvironmentLibrary& library, const Access& access, UploadOptions options)
-        : library_(library), access_(access), options_(std::move(options)) {}
+        : library_(library),
+          access_(access),
+          options_(std::move(options)),
+          by_address_(options_.per_address) {}
 
     // Everything that can be said before the body is read: a refusal, or a place.
     [[nodiscard]] std::variant<HttpReply, Upload> admit(const HttpRequest& request);
@@ -50,6 +56,8 @@ class Uploads {
     [[nodiscard]] HttpReply finish(const Upload& upload,
                                    std::span<const std::byte> body,
                                    std::stop_token stop = {});
+    // Ends all decoders, and at once those that begin later; from any thread.
+    void stop() { stop_.request_stop(); }
 
   private:
     [[nodiscard]] light::DecodeLimits decode_limits(std::stop_token stop) const;
@@ -57,6 +65,8 @@ class Uploads {
     EnvironmentLibrary& library_;
     const Access& access_;
     const UploadOptions options_;
+    AddressQuota by_address_;
+    std::stop_source stop_;
     // Shared with the places, which may outlive this.
     const std::shared_ptr<std::atomic<std::size_t>> in_progress_ =
         std::make_shared<std::atomic<std::size_t>>(0);

@@ -14,7 +14,9 @@
 #include <boost/beast/websocket.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -30,6 +32,17 @@ using wire::CloseCode;
 namespace {
 
 constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
+// Of those that mean something [RFC 6455 §7.4.2].
+constexpr std::uint16_t kLargestCloseCode = 4999;
+// Beside the code, of a frame of at most 125 bytes [RFC 6455 §5.5].
+constexpr std::size_t kMaxCloseReasonBytes = 123;
+
+// What is long takes long to read: a message counts once for every 4 KiB that it begins.
+double weight_of_message(std::size_t bytes) {
+    constexpr std::size_t kBytesOfOne = 4096;
+    return static_cast<double>(
+        std::max<std::size_t>(1, (bytes + kBytesOfOne - 1) / kBytesOfOne));
+}
 
 ImageInterest interest_of(const HttpRequest& request) {
     return request.target.parameter("images") == "settled" ? ImageInterest::settled
@@ -90,9 +103,13 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
         // Images are one frame each, and never deflated: they are compressed already.
         socket_.auto_fragment(false);
         // Pings make work too.
-        socket_.control_callback([this](websocket::frame_type, beast::string_view) {
+        socket_.control_callback([this](websocket::frame_type type, beast::string_view) {
             if (!messages_.take(Clock::now())) {
                 close(CloseCode::too_fast);
+            }
+            if (type == websocket::frame_type::close &&
+                socket_.reason().code > kLargestCloseCode) {
+                fail_for_close_code();
             }
         });
         std::weak_ptr<WebSocketConnection> weak = weak_from_this();
@@ -112,12 +129,25 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             close(CloseCode::bad_token);
             return;
         }
-        auto entered = services_.rooms.enter(name, request_.target.parameter("scene"), outbox_);
+        auto entered = services_.rooms.enter(name, request_.target.parameter("scene"), outbox_,
+                                             request_.client);
         if (const CloseCode* const refusal = std::get_if<CloseCode>(&entered)) {
+            if (*refusal == CloseCode::unknown_scene) {
+                hint_ = services_.routes.expected_scene(
+                    request_.target.parameter("scene").value_or(""));
+            }
             close(*refusal);
             return;
         }
         room_ = std::get<std::shared_ptr<Room>>(std::move(entered));
+    }
+
+    // Beast 1.81 would send back what no peer may send. The answer that is begun here goes
+    // before its own.
+    void fail_for_close_code() {
+        fails_ = true;
+        socket_.async_close(websocket::close_code::protocol_error,
+                            [self = shared_from_this()](const beast::error_code&) {});
     }
 
     void close(CloseCode code) {
@@ -136,7 +166,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             const Clock::time_point read_at = Clock::now();
             if (!socket_.got_text()) {
                 close(CloseCode::not_text);
-            } else if (!messages_.take(read_at)) {
+            } else if (!messages_.take(read_at, weight_of_message(buffer.size()))) {
                 close(CloseCode::too_fast);
             } else if (!closing_) {
                 const auto data = buffer.cdata();
@@ -220,12 +250,17 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
     }
 
     asio::awaitable<void> send_close(CloseCode code) {
+        if (fails_) {
+            co_return;
+        }
         services_.metrics.count_close(code);
         spdlog::info("session_closed room={} code={} reason={:?}", room_ ? room_->name() : "-",
                      static_cast<unsigned>(code), wire::reason_from_close_code(code));
-        const std::string_view text = wire::reason_from_close_code(code);
-        const websocket::close_reason reason(static_cast<websocket::close_code>(code),
-                                             {text.data(), text.size()});
+        std::string text(wire::reason_from_close_code(code));
+        if (!hint_.empty() && text.size() + 2 + hint_.size() <= kMaxCloseReasonBytes) {
+            text += "; " + hint_;
+        }
+        const websocket::close_reason reason(static_cast<websocket::close_code>(code), text);
         auto [error] = co_await socket_.async_close(reason, kNoThrow);
         static_cast<void>(error);
     }
@@ -264,6 +299,8 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
     bool reading_ = true;
     bool writing_ = true;
     bool closing_ = false;
+    std::string hint_;    // more than the close code says
+    bool fails_ = false;  // a close frame of our own is on its way, see fail_for_close_code
 };
 
 }  // namespace

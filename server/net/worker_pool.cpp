@@ -5,6 +5,20 @@
 
 namespace relume::net {
 
+namespace {
+
+// Who took more than its share while nobody else wanted it is not held to that for longer.
+constexpr std::chrono::milliseconds kLargestDebt{500};
+
+}  // namespace
+
+void WorkAccount::charge(Clock::time_point begin,
+                         Clock::duration taken,
+                         std::size_t competitors) {
+    const auto share = taken * static_cast<Clock::duration::rep>(competitors);
+    paid_until_ = std::min(std::max(paid_until_, begin) + share, begin + taken + kLargestDebt);
+}
+
 WorkerPool::WorkerPool(std::size_t threads, LargestCompany largest_company)
     : largest_company_(largest_company) {
     threads_.reserve(threads);
@@ -73,10 +87,19 @@ void WorkerPool::enqueue_locked(std::shared_ptr<WorkItem> item,
         }
         queue_.erase(waiting);
     }
-    const auto place = std::upper_bound(
-        queue_.begin(), queue_.end(), deadline,
-        [](Clock::time_point time, const Waiting& other) { return time < other.deadline; });
-    queue_.insert(place, {.deadline = deadline, .priority = priority, .item = std::move(item)});
+    insert_locked(std::move(item), priority, deadline);
+}
+
+void WorkerPool::insert_locked(std::shared_ptr<WorkItem> item,
+                               WorkPriority priority,
+                               Clock::time_point deadline) {
+    const Clock::time_point place = std::max(deadline, item->account_.paid_until());
+    const auto at = std::upper_bound(
+        queue_.begin(), queue_.end(), place,
+        [](Clock::time_point time, const Waiting& other) { return time < other.place; });
+    queue_.insert(
+        at,
+        {.deadline = deadline, .place = place, .priority = priority, .item = std::move(item)});
 }
 
 void WorkerPool::release_due_locked(Clock::time_point now) {
@@ -110,13 +133,42 @@ std::vector<std::shared_ptr<WorkItem>> WorkerPool::next_locked() {
     return next;
 }
 
+void WorkerPool::charge_locked(std::span<const std::shared_ptr<WorkItem>> items,
+                               Clock::time_point begin,
+                               Clock::duration taken) {
+    const auto is_one_of_them = [&items](const Waiting& waiting) {
+        return std::find(items.begin(), items.end(), waiting.item) != items.end();
+    };
+    std::vector<Waiting> again;  // queued while they ran, before this was known
+    for (const Waiting& waiting : queue_) {
+        if (is_one_of_them(waiting)) {
+            again.push_back(waiting);
+        }
+    }
+    std::erase_if(queue_, is_one_of_them);
+    const auto each = taken / static_cast<Clock::duration::rep>(items.size());
+    for (const std::shared_ptr<WorkItem>& item : items) {
+        item->account_.charge(begin, each, running_ + queue_.size());
+    }
+    for (Waiting& waiting : again) {
+        insert_locked(std::move(waiting.item), waiting.priority, waiting.deadline);
+    }
+}
+
 void WorkerPool::work() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         release_due_locked(Clock::now());
         if (auto items = next_locked(); !items.empty()) {
+            running_ += items.size();
             lock.unlock();
+            const Clock::time_point begin = Clock::now();
             items.front()->run(std::span(items).subspan(1));
+            const Clock::duration taken = Clock::now() - begin;
+            lock.lock();
+            charge_locked(items, begin, taken);
+            running_ -= items.size();
+            lock.unlock();
             items.clear();
             lock.lock();
         } else if (delayed_.empty()) {

@@ -11,14 +11,18 @@ HttpRequest request(const std::string& target) {
     return made;
 }
 
+HostPolicy local() {
+    return {"127.0.0.1:8080", boost::asio::ip::make_address("127.0.0.1"), {}};
+}
+
 TEST(Access, WithoutATokenAsksForNone) {
-    const Access access("", OriginPolicy({}));
+    const Access access("", OriginPolicy({}), local());
     EXPECT_TRUE(access.has_token(request("/")));
     EXPECT_TRUE(access.has_token(request("/?token=x")));
 }
 
 TEST(Access, TakesTheTokenFromQueryOrHeader) {
-    const Access access("secret", OriginPolicy({}));
+    const Access access("secret", OriginPolicy({}), local());
     EXPECT_FALSE(access.has_token(request("/")));
     EXPECT_FALSE(access.has_token(request("/?token=")));
     EXPECT_FALSE(access.has_token(request("/?token=secre")));
@@ -44,6 +48,36 @@ TEST(OriginPolicy, OwnOriginAndNoOriginAreAllowed) {
     EXPECT_FALSE(policy.allows("null", "host:8080"));
     EXPECT_FALSE(policy.allows("", ""));
     EXPECT_FALSE(policy.allows("http://", ""));
+}
+
+TEST(OriginPolicy, ADefaultPortIsAsGoodAsNone) {
+    const OriginPolicy policy({"https://dev.example:443"});
+    EXPECT_TRUE(policy.allows("http://host", "host:80"));
+    EXPECT_TRUE(policy.allows("http://host:80", "host"));
+    EXPECT_TRUE(policy.allows("https://host", "host:443"));
+    EXPECT_TRUE(policy.allows("https://dev.example", "other"));
+    EXPECT_FALSE(policy.allows("http://host", "host:443"));
+    EXPECT_FALSE(policy.allows("https://host:80", "host"));
+    EXPECT_FALSE(policy.allows("http://dev.example", "other"));
+}
+
+TEST(HostPolicy, ListensUnderItsAddressAndWhatIsAllowed) {
+    const auto policy = [](const char* listen, const char* address) {
+        return HostPolicy(listen, boost::asio::ip::make_address(address),
+                          {"studio", "fe80::1"});
+    };
+    const HostPolicy one = policy("lan.example:80", "10.0.0.1");
+    for (const char* const host : {"lan.example", "10.0.0.1:80", "studio:1", "[fe80::1]"}) {
+        EXPECT_TRUE(one.allows(host)) << host;
+    }
+    for (const char* const host : {"localhost", "127.0.0.1", "10.0.0.2", "other"}) {
+        EXPECT_FALSE(one.allows(host)) << host;
+    }
+    const HostPolicy all = policy("[::]:80", "::");
+    for (const char* const host : {"localhost", "127.0.0.1", "10.0.0.2", "[::1]:80"}) {
+        EXPECT_TRUE(all.allows(host)) << host;
+    }
+    EXPECT_FALSE(all.allows("other"));
 }
 
 TEST(OriginPolicy, OthersOnlyWhenListed) {

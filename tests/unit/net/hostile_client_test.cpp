@@ -5,8 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+#include <iterator>
+#include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace relume::net {
 namespace {
@@ -138,6 +142,20 @@ TEST_F(HostileClient, TooManyMessagesClose) {
     expect_serves_on();
 }
 
+TEST_F(HostileClient, LongMessagesCountForMore) {
+    configuration_.limits.messages_per_second = 1;
+    configuration_.limits.message_burst = 20;
+    start();
+    WebSocketClient client(port(), kTarget);
+    const std::string padded =
+        R"({"type":"edit","id":1,"patch":{}})" + std::string(40'000, ' ');  // ten of 4 KiB
+    client.send(padded);
+    client.send(padded);
+    static_cast<void>(client.receive_message("change"));
+    client.send(padded);
+    EXPECT_EQ(client.receive_close(), 4002U);
+}
+
 TEST_F(HostileClient, PingsCountAsMessages) {
     configuration_.limits.messages_per_second = 1;
     configuration_.limits.message_burst = 10;
@@ -187,6 +205,55 @@ TEST_F(HostileClient, FramesAgainstTheProtocolEndTheConnection) {
     expect_serves_on();
 }
 
+// [RFC 6455 §7.4]: a code that may not be sent is a protocol error; one that may comes back.
+TEST_F(HostileClient, CloseCodesAreAnsweredAsTheProtocolSays) {
+    start();
+    const auto answer_to = [this](unsigned code) {
+        const auto socket = upgraded();
+        socket->send(std::string("\x88\x82\0\0\0\0", 6) + static_cast<char>(code >> 8) +
+                     static_cast<char>(code & 0xFF));
+        const std::string bytes = socket->receive_all();
+        const std::size_t frame = bytes.rfind('\x88');
+        return frame == std::string::npos || frame + 4 > bytes.size()
+                   ? 0U
+                   : static_cast<unsigned char>(bytes[frame + 2]) * 256U +
+                         static_cast<unsigned char>(bytes[frame + 3]);
+    };
+    for (const unsigned code :
+         {0U, 999U, 1004U, 1005U, 1006U, 1015U, 1016U, 2999U, 5000U, 9999U, 65535U}) {
+        EXPECT_EQ(answer_to(code), 1002U) << code;
+    }
+    for (const unsigned code : {1000U, 1001U, 1011U, 3000U, 4000U, 4999U}) {
+        EXPECT_EQ(answer_to(code), code);
+    }
+    expect_serves_on();
+}
+
+TEST_F(HostileClient, HandshakesAgainstTheProtocolAreRefused) {
+    start();
+    const auto status_of = [this](const std::string& fields) {
+        return http_raw(port(), std::string("GET ") + kTarget +
+                                    " HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\n"
+                                    "Upgrade: websocket\r\n" +
+                                    fields + "\r\n")
+            .status;
+    };
+    const std::string version = "Sec-WebSocket-Version: 13\r\n";
+    const std::string key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    EXPECT_EQ(status_of(version), 400U);
+    EXPECT_EQ(status_of(version + key + key), 400U);
+    for (const char* const value :
+         {"", "AA==", "dGhlIHNhbXBsZSBub25jZQ", "dGhlIHNhbXBsZSBub25jZQ=x",
+          "dGhlIHNhbXBsZSBub25jZSE=", "dGhlIHNhbXBsZSBub25*ZQ==",
+          "dGhlIHNhbXBsZSBub25jZWRGhlIHNhbXBsZSBub25jZQ=="}) {
+        EXPECT_EQ(status_of(version + "Sec-WebSocket-Key: " + value + "\r\n"), 400U) << value;
+    }
+    EXPECT_EQ(status_of(key), 426U);
+    EXPECT_EQ(status_of(key + version + version), 426U);
+    EXPECT_EQ(status_of(key + "Sec-WebSocket-Version: 12\r\n"), 426U);
+    expect_serves_on();
+}
+
 TEST_F(HostileClient, GarbageAfterTheUpgradeEndsTheConnection) {
     start();
     std::mt19937 generator(3);
@@ -229,6 +296,68 @@ TEST_F(HostileClient, FramesBeforeTheAnswerAreRefused) {
     socket.send(upgrade_request(kTarget) + masked_text_frame("{}"));
     const std::string answer = socket.receive_all();
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 400 ")) << answer;
+}
+
+// What one address takes, the others still get.
+TEST_F(HostileClient, OneAddressDoesNotLockTheOthersOut) {
+    configuration_.connection.connections = 40;
+    configuration_.connection.connections_per_address = 10;
+    configuration_.limits.rooms = 6;
+    configuration_.rooms.rooms_per_address = 3;
+    configuration_.connection.concurrent_uploads = 4;
+    configuration_.connection.uploads_per_address = 2;
+    configuration_.connection.handshake_timeout = std::chrono::milliseconds(200);
+    start();
+    const char* const greedy = "127.0.0.2";
+    std::vector<std::unique_ptr<RawSocket>> held;
+    unsigned rooms = 0;
+    for (int i = 0; i < 5; ++i) {
+        held.push_back(std::make_unique<RawSocket>(port(), 0, greedy));
+        held.back()->send(
+            upgrade_request("/session/held-" + std::to_string(i) + "?scene=tiny"));
+        const std::string answer = held.back()->receive_until("\"viewers\"");
+        rooms += answer.find("snapshot") != std::string::npos ? 1U : 0U;
+    }
+    EXPECT_EQ(rooms, 3U);
+    held.resize(3);
+    unsigned uploads = 0;
+    for (int i = 0; i < 3; ++i) {
+        held.push_back(std::make_unique<RawSocket>(port(), 0, greedy));
+        held.back()->send(
+            "POST /api/environments?name=held HTTP/1.1\r\nHost: localhost\r\n"
+            "Expect: 100-continue\r\nContent-Length: 1000\r\n\r\n");
+        uploads += held.back()->receive_until("\r\n\r\n").starts_with("HTTP/1.1 100") ? 1U : 0U;
+    }
+    EXPECT_EQ(uploads, 2U);
+    for (int i = 0; i < 60; ++i) {
+        held.push_back(std::make_unique<RawSocket>(port(), 0, greedy));
+    }
+    EXPECT_TRUE(eventually([&] { return metrics_say("relume_connections 10"); }));
+    expect_serves_on();
+    write_hdr(scenes_.path() / "other.hdr", 16, 8, 1);
+    std::ifstream file(scenes_.path() / "other.hdr", std::ios::binary);
+    const std::string body{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(http(port(), "POST", "/api/environments?name=other", {}, body).status, 201U);
+}
+
+// A room that its maker's address left gives way to that address's next one.
+TEST_F(HostileClient, RoomsBehindAProxyCountForWhomItNames) {
+    configuration_.trusted_proxies = {"127.0.0.1"};
+    configuration_.rooms.rooms_per_address = 1;
+    configuration_.rooms.linger = std::chrono::hours(1);
+    start();
+    const auto enter = [this](const std::string& room, const std::string& forwarded_for) {
+        return std::make_unique<WebSocketClient>(
+            port(), "/session/" + room + "?scene=tiny",
+            WebSocketClient::Fields{{"X-Forwarded-For", forwarded_for}});
+    };
+    auto first = enter("a", "10.0.0.1");
+    static_cast<void>(first->receive_message("snapshot"));
+    EXPECT_EQ(enter("b", "10.0.0.2, 10.0.0.1")->receive_close(), 4007U);
+    EXPECT_EQ(enter("c", "10.0.0.1, 10.0.0.2")->receive_message("snapshot")["room"], "c");
+    first->vanish();
+    EXPECT_TRUE(eventually([&] { return metrics_say("relume_clients 0"); }));
+    EXPECT_EQ(enter("b", "10.0.0.1")->receive_message("snapshot")["room"], "b");
 }
 
 TEST_F(HostileClient, LeavingMidImageHurtsNobody) {

@@ -2,12 +2,15 @@
 #include "tests/unit/net/hdr_file.h"
 #include "tests/unit/net/raw_socket.h"
 #include "tests/unit/net/running_server.h"
+#include "tests/unit/net/websocket_client.h"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <vector>
 
 namespace relume::net {
 namespace {
@@ -58,10 +61,82 @@ TEST_F(HttpTest, ListsScenesAndServesOnBesideABrokenOne) {
     expect_serves_on();
 }
 
+// In place, as no careful program would: the copy that is served does not change.
+TEST_F(HttpTest, AServedSceneThatIsChangedInPlaceHurtsNobody) {
+    start();
+    const fs::path scene = scenes_.path() / "tiny.relume";
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(scene)) {
+        if (entry.is_regular_file()) {
+            files.push_back(entry.path());
+        }
+    }
+    for (const fs::path& path : files) {
+        const std::string zeroes(fs::file_size(path), '\xFF');
+        std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << zeroes;
+    }
+    expect_serves_on();
+    for (const fs::path& path : files) {
+        fs::resize_file(path, 0);
+    }
+    expect_serves_on();
+}
+
+TEST_F(HttpTest, ScenesThatComeChangeAndGoAreFollowed) {
+    configuration_.scenes_interval = std::chrono::milliseconds(20);
+    start();
+    const auto widths = [this] {
+        std::map<std::string, int> found;
+        const json listing = json::parse(http(port(), "GET", "/api/scenes").body);
+        for (const json& scene : listing["scenes"]) {
+            found[scene["name"]] = scene["width"];
+        }
+        return found;
+    };
+    using Widths = std::map<std::string, int>;
+    const fs::path other = scenes_.path() / "elsewhere";
+    test::write_tiny_transport(other, {.width = 16});
+    fs::rename(other, scenes_.path() / "other.relume");
+    EXPECT_TRUE(eventually([&] { return widths() == Widths{{"other", 16}, {"tiny", 40}}; }));
+
+    // Somebody is in a room of it while it is replaced, and stays there.
+    WebSocketClient inside(port(), "/session/old?scene=other");
+    static_cast<void>(inside.receive_settled(0));
+    test::write_tiny_transport(other, {.width = 24});
+    fs::rename(scenes_.path() / "other.relume", scenes_.path() / "away");
+    fs::rename(other, scenes_.path() / "other.relume");
+    EXPECT_TRUE(eventually([&] { return widths() == Widths{{"other", 24}, {"tiny", 40}}; }));
+    inside.send(json{{"type", "edit"}, {"id", 1}, {"patch", {{"environment", {{"gain", 2}}}}}});
+    EXPECT_EQ(inside.receive_settled(1).image_header().width, 16U);
+    WebSocketClient outside(port(), "/session/new?scene=other");
+    EXPECT_EQ(outside.receive_settled(0).image_header().width, 24U);
+    inside.vanish();
+    EXPECT_TRUE(eventually([&] { return metrics_say("relume_rooms 1"); }));
+
+    fs::remove_all(scenes_.path() / "other.relume");
+    EXPECT_TRUE(eventually([&] { return widths() == Widths{{"tiny", 40}}; }));
+    EXPECT_EQ(WebSocketClient(port(), "/session/newer?scene=other").receive_close(), 4004U);
+    outside.send(
+        json{{"type", "edit"}, {"id", 1}, {"patch", {{"environment", {{"gain", 2}}}}}});
+    EXPECT_EQ(outside.receive_settled(1).image_header().width, 24U);
+
+    // A broken one is left out until it is whole.
+    fs::copy(scenes_.path() / "tiny.relume", other, fs::copy_options::recursive);
+    fs::rename(other / "columns.bin", scenes_.path() / "columns.bin");
+    fs::rename(other, scenes_.path() / "late.relume");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(widths(), (Widths{{"tiny", 40}}));
+    fs::rename(scenes_.path() / "columns.bin", scenes_.path() / "late.relume/columns.bin");
+    EXPECT_TRUE(eventually([&] { return widths() == Widths{{"late", 40}, {"tiny", 40}}; }));
+    expect_serves_on();
+}
+
 TEST_F(HttpTest, ThumbnailsAreServedIfTheBakeLeftThem) {
     start();
     EXPECT_EQ(http(port(), "GET", "/api/scenes/tiny/thumbnail.png").status, 404U);
     EXPECT_EQ(http(port(), "GET", "/api/scenes/none/thumbnail.png").status, 404U);
+    EXPECT_NE(http(port(), "GET", "/api/scenes/tinny/thumbnail.png").body.find("mean tiny?"),
+              std::string::npos);
     fs::create_directory(scenes_.path() / "tiny.relume/view");
     std::ofstream(scenes_.path() / "tiny.relume/view/thumbnail.png") << "png";
     const HttpAnswer answer = http(port(), "GET", "/api/scenes/tiny/thumbnail.png");
@@ -138,7 +213,7 @@ TEST_F(HttpTest, ClientsThatAskWhetherToGoOnAreAnswered) {
     const std::string file = hdr_file();
     RawSocket socket(port());
     socket.send(
-        "POST /api/environments?name=mine HTTP/1.1\r\nHost: h\r\nConnection: close\r\n"
+        "POST /api/environments?name=mine HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n"
         "Expect: 100-continue\r\nContent-Length: " +
         std::to_string(file.size()) + "\r\n\r\n");
     EXPECT_TRUE(socket.receive_until("\r\n\r\n").starts_with("HTTP/1.1 100 "));
@@ -166,6 +241,37 @@ TEST_F(HttpTest, ThePageHasNoWayOut) {
     const std::size_t tag = page.head.find(tag_field) + tag_field.size();
     const std::string etag = page.head.substr(tag, page.head.find("\r\n", tag) - tag);
     EXPECT_EQ(http(port(), "GET", "/", "If-None-Match: " + etag + "\r\n").status, 304U);
+}
+
+// A page elsewhere whose name was made to point here has our address, but not our name.
+TEST_F(HttpTest, AnotherNamesHostIsRefusedWhateverItAsksFor) {
+    configuration_.allow_hosts = {"studio.example"};
+    start();
+    const auto status = [this](const std::string& host, const std::string& target) {
+        return http_raw(port(), "GET " + target + " HTTP/1.1\r\nHost: " + host +
+                                    "\r\nConnection: close\r\n\r\n")
+            .status;
+    };
+    for (const char* const host : {"evil.example", "evil.example:80", "localhost.evil.example",
+                                   "127.0.0.1.evil.example", "10.1.2.3", "", "a b", "[::1"}) {
+        EXPECT_EQ(status(host, "/api/scenes"), 421U) << host;
+        EXPECT_EQ(status(host, "/"), 421U) << host;
+    }
+    for (const char* const host : {"localhost", "LOCALHOST.:1", "127.0.0.1", "127.0.0.1:65535",
+                                   "[::1]:80", "studio.example", "Studio.Example:443"}) {
+        EXPECT_EQ(status(host, "/api/scenes"), 200U) << host;
+    }
+}
+
+TEST_F(HttpTest, AnswersSayWhatAPageMayDo) {
+    start();
+    for (const char* const target : {"/", "/api/scenes", "/api/none"}) {
+        const std::string head = http(port(), "GET", target).head;
+        EXPECT_NE(head.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
+        EXPECT_NE(head.find("frame-ancestors 'none'"), std::string::npos);
+        EXPECT_NE(head.find("X-Content-Type-Options: nosniff"), std::string::npos);
+        EXPECT_NE(head.find("Referrer-Policy: no-referrer"), std::string::npos);
+    }
 }
 
 TEST_F(HttpTest, WithoutAPageSaysSo) {
@@ -199,9 +305,9 @@ TEST_F(HttpTest, RequestsOnOneConnectionAreAnsweredInOrder) {
     start();
     RawSocket socket(port());
     socket.send(
-        "GET /healthz HTTP/1.1\r\nHost: h\r\n\r\n"
-        "GET /readyz HTTP/1.1\r\nHost: h\r\n\r\n"
-        "GET /api/none HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n");
+        "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        "GET /readyz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        "GET /api/none HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     const std::string answers = socket.receive_all();
     const std::size_t ok = answers.find("\r\n\r\nok\n");
     const std::size_t ready = answers.find("\r\n\r\nready\n");
@@ -214,7 +320,8 @@ TEST_F(HttpTest, RequestsOnOneConnectionAreAnsweredInOrder) {
 // Boost 1.81 takes Content-Length with Transfer-Encoding and does not bound chunk headers.
 TEST_F(HttpTest, BodiesWithTransferEncodingAreRefused) {
     start();
-    const std::string begin = "POST /api/environments?name=mine HTTP/1.1\r\nHost: h\r\n";
+    const std::string begin =
+        "POST /api/environments?name=mine HTTP/1.1\r\nHost: localhost\r\n";
     for (const char* const fields :
          {"Transfer-Encoding: chunked\r\n", "Transfer-Encoding: gzip, chunked\r\n",
           "Transfer-Encoding: identity\r\n"}) {
@@ -233,7 +340,7 @@ TEST_F(HttpTest, BodiesWithTransferEncodingAreRefused) {
 TEST_F(HttpTest, RequestsThatAreNoneAreRefusedAndHoldNothing) {
     configuration_.connection.request_header_bytes = 4096;
     start();
-    const std::string end = "\r\nHost: h\r\n\r\n";
+    const std::string end = "\r\nHost: localhost\r\n\r\n";
     EXPECT_EQ(http_raw(port(), "GET / HTTP/1.1\r\n\r\n").status, 400U);
     EXPECT_EQ(http_raw(port(), "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n").status, 400U);
     EXPECT_EQ(http_raw(port(), "GET http://h/ HTTP/1.1" + end).status, 400U);
@@ -266,9 +373,26 @@ TEST_F(HttpTest, SlowRequestsAreCutOff) {
     EXPECT_EQ(header.receive_all(), "");
     RawSocket body(port());
     body.send(
-        "POST /api/environments?name=m HTTP/1.1\r\nHost: h\r\nContent-Length: 9\r\n\r\nab");
+        "POST /api/environments?name=m HTTP/1.1\r\nHost: localhost\r\nContent-Length: "
+        "9\r\n\r\nab");
     EXPECT_EQ(body.receive_all(), "");
     EXPECT_TRUE(eventually([&] { return metrics_say("relume_connections 0"); }));
+    expect_serves_on();
+}
+
+// Bytes that come in time earn more of it, up to the whole; a trickle earns none.
+TEST_F(HttpTest, UploadsThatTrickleAreCutOff) {
+    configuration_.connection.body_grace = std::chrono::milliseconds(100);
+    configuration_.connection.body_bytes_per_second = 1000;
+    start();
+    RawSocket trickle(port());
+    trickle.send(
+        "POST /api/environments?name=m HTTP/1.1\r\nHost: localhost\r\n"
+        "Content-Length: 1000000\r\n\r\n");
+    EXPECT_TRUE(eventually([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return !trickle.send("x") || trickle.has_ended();
+    }));
     expect_serves_on();
 }
 

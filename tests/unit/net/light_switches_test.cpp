@@ -35,7 +35,7 @@ const json kTwoLights = {
 class LightSwitches : public testing::Test {
   protected:
     LightSwitches() {
-        scenes_.open_all(folder_.path());
+        scenes_.refresh(folder_.path());
         environments_.add_upload("grey", grey_map());
     }
 
@@ -50,7 +50,7 @@ class LightSwitches : public testing::Test {
                      {"background", {{"mode", background}, {"colour", {0, 0, 0}}}}},
                     wire::Limits{});
         Metrics metrics;
-        Relighter relighter(scenes_.find("tiny"), metrics);
+        Relighter relighter(scenes_.find("tiny"), metrics, std::chrono::seconds(1));
         EXPECT_TRUE(
             relighter
                 .set_state(state, {.environment = environments_.find("grey"), .blend = nullptr})

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <memory>
 #include <string>
 
 namespace relume::net {
@@ -80,11 +81,12 @@ TEST(Outbox, SettledInterestTakesNoMovingImage) {
 
 TEST(Outbox, UnsentChangesMergeAndKeepTheLastRevision) {
     Outbox outbox(ImageInterest::all, 2);
-    outbox.put_change({.revision = 4,
-                       .patch = {{"environment", {{"gain", 2}}}, {"lights", {{"a", nullptr}}}},
-                       .edit_id = 17});
-    outbox.put_change(
-        {.revision = 5, .patch = {{"environment", {{"gain", 3}}}}, .edit_id = {}});
+    EXPECT_TRUE(outbox.put_change(
+        {.revision = 4,
+         .patch = {{"environment", {{"gain", 2}}}, {"lights", {{"a", nullptr}}}},
+         .edit_id = 17}));
+    EXPECT_TRUE(outbox.put_change(
+        {.revision = 5, .patch = {{"environment", {{"gain", 3}}}}, .edit_id = {}}));
     const json change = taken_text(outbox);
     EXPECT_EQ(change["type"], "change");
     EXPECT_EQ(change["revision"], 5);
@@ -94,13 +96,54 @@ TEST(Outbox, UnsentChangesMergeAndKeepTheLastRevision) {
     EXPECT_FALSE(outbox.take().has_value());
 }
 
+// Who reads slowly holds one change of bounded size, whatever the others add and remove.
+TEST(Outbox, AChangeThatWouldGrowGivesWayToASnapshot) {
+    const auto lights = [](std::size_t first, std::size_t count) {
+        json named = json::object();
+        for (std::size_t i = first; i < first + count; ++i) {
+            named["light-" + std::to_string(i)] = nullptr;
+        }
+        return json{{"lights", named}};
+    };
+    Outbox outbox(ImageInterest::all, 2);
+    // However much one edit names, it is one edit.
+    EXPECT_TRUE(outbox.put_change(
+        {.revision = 1, .patch = lights(0, Outbox::kMaxMergedLights), .edit_id = 5}));
+    // The same lights again are no more lights.
+    EXPECT_TRUE(outbox.put_change({.revision = 2, .patch = lights(0, 9), .edit_id = {}}));
+    EXPECT_FALSE(outbox.put_change(
+        {.revision = 3, .patch = lights(Outbox::kMaxMergedLights, 1), .edit_id = {}}));
+    auto snapshot = std::make_shared<wire::Snapshot>();
+    snapshot->revision = 3;
+    outbox.put_snapshot(snapshot);
+    EXPECT_TRUE(outbox.put_change(
+        {.revision = 4, .patch = {{"environment", {{"gain", 2}}}}, .edit_id = {}}));
+    EXPECT_EQ(taken_text(outbox)["revision"], 3);
+    const json change = taken_text(outbox);
+    EXPECT_EQ(change["revision"], 4);
+    EXPECT_EQ(change["patch"], (json{{"environment", {{"gain", 2}}}}));
+    EXPECT_EQ(change["edit_id"], 5) << "its author waits for it";
+    EXPECT_FALSE(outbox.take().has_value());
+}
+
+TEST(Outbox, AnEditThatASnapshotHoldsIsConfirmedAfterIt) {
+    Outbox outbox(ImageInterest::all, 2);
+    outbox.put_snapshot(std::make_shared<const wire::Snapshot>());
+    outbox.confirm(7, 12);
+    EXPECT_EQ(taken_text(outbox)["type"], "snapshot");
+    const json change = taken_text(outbox);
+    EXPECT_EQ(change["revision"], 7);
+    EXPECT_EQ(change["edit_id"], 12);
+    EXPECT_EQ(change["patch"], json::object());
+}
+
 TEST(Outbox, SnapshotComesFirstAndTextBeforeImages) {
     Outbox outbox(ImageInterest::all, 2);
     outbox.put_image(image(1));
     outbox.put_viewers(1);
     outbox.put_viewers(2);
-    outbox.put_change({.revision = 1, .patch = json::object(), .edit_id = {}});
-    outbox.put_snapshot(R"({"type":"snapshot"})");
+    outbox.put_snapshot(std::make_shared<const wire::Snapshot>());
+    EXPECT_TRUE(outbox.put_change({.revision = 1, .patch = json::object(), .edit_id = {}}));
     EXPECT_EQ(taken_text(outbox)["type"], "snapshot");
     EXPECT_EQ(taken_text(outbox)["type"], "change");
     EXPECT_EQ(taken_text(outbox)["count"], 2);

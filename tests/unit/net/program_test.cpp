@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -136,6 +137,53 @@ TEST_F(ProgramTest, AClientThatIsDeafDoesNotHoldUpTheEnd) {
     EXPECT_EQ(server.wait(), 0);
 }
 
+// Standard error is a pipe that its reader has forgotten.
+TEST_F(ProgramTest, ALogThatNobodyReadsHoldsNothingUp) {
+    ASSERT_EQ(mkfifo(log().c_str(), 0600), 0);
+    const int forgotten = open(log().c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_GE(forgotten, 0);
+    ASSERT_GT(fcntl(forgotten, F_SETPIPE_SZ, 4096), 0);
+    {
+        Process server(flags(), log());
+        const std::uint16_t port = wait_until_ready();
+        // More lines than pipe and queue hold.
+        const std::string dropped = "\nrelume_log_lines_dropped 0\n";
+        for (int i = 0; i < 40; ++i) {
+            WebSocketClient client(port, "/session/r?scene=tiny");
+            static_cast<void>(client.receive_message("snapshot"));
+        }
+        EXPECT_NE(http(port, "GET", "/metrics").body.find(dropped), std::string::npos);
+        EXPECT_TRUE(eventually([&] {
+            for (int i = 0; i < 100; ++i) {
+                static_cast<void>(
+                    WebSocketClient(port, "/session/" + std::string(64, 'r') + "?scene=none")
+                        .receive_close());
+            }
+            return http(port, "GET", "/metrics").body.find(dropped) == std::string::npos;
+        }));
+        WebSocketClient client(port, "/session/after?scene=tiny&images=settled");
+        EXPECT_TRUE(client.receive_settled(0).image_header().exact);
+        server.signal(SIGTERM);
+        EXPECT_EQ(server.wait(), 0);
+    }
+    close(forgotten);
+}
+
+TEST_F(ProgramTest, HangUpLooksForScenes) {
+    std::vector<std::string> all = flags();
+    all.insert(all.end(), {"--scenes-interval-ms", "0"});
+    Process server(all, log());
+    const std::uint16_t port = wait_until_ready();
+    fs::copy(scenes_.path() / "tiny.relume", scenes_.path() / "more.relume",
+             fs::copy_options::recursive);
+    server.signal(SIGHUP);
+    EXPECT_TRUE(eventually([&] {
+        return http(port, "GET", "/api/scenes").body.find("\"more\"") != std::string::npos;
+    }));
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+}
+
 TEST_F(ProgramTest, AnAddressInUseIsNamed) {
     Process server(flags(), log());
     const std::string port = std::to_string(wait_until_ready());
@@ -155,6 +203,11 @@ TEST_F(ProgramTest, CheckConfigSaysWhetherItIsSound) {
                      log());
     EXPECT_EQ(misnamed.wait(), 1);
     EXPECT_NE(text_of(log()).find("default-environment"), std::string::npos);
+    EXPECT_EQ(run({"--check-config", "--decoder", "/no/such/decoder"}), 1);
+    EXPECT_NE(text_of(log()).find("/no/such/decoder"), std::string::npos);
+    EXPECT_EQ(run({"--check-config", "--decoder", "/bin/true"}), 1);
+    EXPECT_EQ(run({"--check-config", "--web-root", scenes_.path().string()}), 1);
+    EXPECT_NE(text_of(log()).find("index.html"), std::string::npos);
     fs::remove(scenes_.path() / "tiny.relume/manifest.json");
     EXPECT_EQ(run({"--check-config"}), 1);
     EXPECT_NE(text_of(log()).find("manifest.json"), std::string::npos);

@@ -10,8 +10,11 @@ namespace relume::net {
 
 class RawSocket {
   public:
-    // `receive_buffer_bytes` 0 leaves the system's choice. Throws std::runtime_error, as below.
-    explicit RawSocket(std::uint16_t port, int receive_buffer_bytes = 0);
+    // `receive_buffer_bytes` 0 leaves the system's choice. All of 127.0.0.0/8 is this machine:
+    // a connection may come from any of it. Throws std::runtime_error, as below.
+    explicit RawSocket(std::uint16_t port,
+                       int receive_buffer_bytes = 0,
+                       const char* source = "127.0.0.1");
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;
     ~RawSocket();
@@ -22,6 +25,8 @@ class RawSocket {
     // All until the peer ends, or until `end` has come.
     [[nodiscard]] std::string receive_until(std::string_view end);
     [[nodiscard]] std::string receive_all();
+    // The peer has ended the connection, as far as has been heard without waiting.
+    [[nodiscard]] bool has_ended() const;
 
   private:
     int socket_;

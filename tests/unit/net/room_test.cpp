@@ -44,7 +44,7 @@ json last_change(const std::vector<json>& texts) {
 class RoomTest : public testing::Test {
   protected:
     RoomTest() {
-        scenes_.open_all(folder_.path());
+        scenes_.refresh(folder_.path());
         environments_.add_upload("map", half_bright_map());
         rooms_ = std::make_shared<Rooms>(scenes_, environments_,
                                          RoomThreads{workers_, encoders_}, metrics_, options());
@@ -67,7 +67,7 @@ class RoomTest : public testing::Test {
     }
     std::shared_ptr<Room> enter(const Room::SharedOutbox& viewer,
                                 const std::string& name = "r") {
-        return std::get<std::shared_ptr<Room>>(rooms_->enter(name, "tiny", viewer));
+        return std::get<std::shared_ptr<Room>>(rooms_->enter(name, "tiny", viewer, "here"));
     }
     // Takes, and acknowledges, until a settled image comes; the text goes to `texts`.
     SharedImageFrame settled_image(Room& room,
@@ -186,6 +186,50 @@ TEST_F(RoomTest, EditsTakenTogetherMakeOneStateAndEveryViewerSeesIt) {
     EXPECT_FALSE(last_change(other_texts).contains("edit_id"));
 }
 
+// One who reads nothing while another adds and removes lights of ever new names.
+TEST_F(RoomTest, WhoReadsSlowlyHoldsOneSnapshotAndOneSmallChange) {
+    const auto author = outbox(ImageInterest::settled);
+    const auto sleeper = outbox(ImageInterest::settled);
+    const auto room = enter(author);
+    ASSERT_EQ(enter(sleeper), room);
+    const json light{
+        {"direction", {0, 1, 0}}, {"angular_radius_degrees", 5}, {"radiance", {1, 1, 1}}};
+    std::uint64_t revision = 0;
+    for (int round = 0; round < 40; ++round) {
+        json add = json::object();
+        json remove = json::object();
+        json never_there = json::object();
+        for (int i = 0; i < 20; ++i) {
+            const std::string id = std::to_string(round) + "-" + std::to_string(i);
+            add[id] = light;
+            remove[id] = nullptr;
+            never_there["never-" + id] = nullptr;
+        }
+        for (const json& lights : {add, remove, never_there}) {
+            edit(*room, *author, {{"lights", lights}}, ++revision);
+        }
+    }
+    edit(*room, *author, {{"lights", {{"last", light}}}}, ++revision);
+    for (const auto& viewer : {author, sleeper}) {
+        std::vector<json> texts;
+        ASSERT_NE(settled_image(*room, *viewer, revision, &texts), nullptr);
+        std::erase_if(texts, [](const json& text) { return text["type"] == "viewers"; });
+        ASSERT_GE(texts.size(), 1U);
+        ASSERT_LE(texts.size(), 2U);
+        EXPECT_EQ(texts.front()["type"], "snapshot");
+        EXPECT_LT(texts.back().dump().size(), 300 * 200U);
+        json state = texts.front()["state"];
+        if (texts.size() == 2) {
+            state.merge_patch(texts.back()["patch"]);
+        }
+        EXPECT_EQ(state["lights"].size(), 1U);
+        EXPECT_EQ(texts.back()["revision"], revision);
+        if (viewer == author) {
+            EXPECT_EQ(texts.back()["edit_id"], revision);
+        }
+    }
+}
+
 TEST_F(RoomTest, RefusedEditsLeaveEverythingAsItWas) {
     const auto viewer = outbox(ImageInterest::settled);
     const auto room = enter(viewer);
@@ -278,17 +322,17 @@ TEST_F(RoomTest, BoundsClientsAndRoomsAndNamesTheReason) {
         enter(viewers.back(), "a");
     }
     const auto more = outbox();
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("a", "tiny", more)),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("a", "tiny", more, "here")),
               wire::CloseCode::room_full);
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("b", std::nullopt, more)),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("b", std::nullopt, more, "here")),
               wire::CloseCode::unknown_scene);
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("b", "none", more)),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("b", "none", more, "here")),
               wire::CloseCode::unknown_scene);
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("a", "none", more)),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("a", "none", more, "here")),
               wire::CloseCode::unknown_scene);
     const auto b = enter(more, "b");
     const auto yet_another = outbox();
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("c", "tiny", yet_another)),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("c", "tiny", yet_another, "here")),
               wire::CloseCode::too_many_rooms);
     // A room that everybody left makes place.
     rooms_->leave(*b, more);
@@ -305,7 +349,7 @@ TEST_F(RoomTest, StoppedRoomsRefuseEditsAndGuests) {
     } catch (const wire::WireError& error) {
         EXPECT_EQ(error.code(), wire::ErrorCode::shutting_down);
     }
-    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("r", "tiny", outbox())),
+    EXPECT_EQ(std::get<wire::CloseCode>(rooms_->enter("r", "tiny", outbox(), "here")),
               wire::CloseCode::shutting_down);
 }
 
@@ -322,7 +366,8 @@ TEST_F(RoomTest, RoomsEditedTogetherShowWhatTheyWouldAlone) {
         json patch;
     };
     const auto enter_and_edit = [&](Seat& seat, const std::string& name, std::size_t i) {
-        seat.room = std::get<std::shared_ptr<Room>>(crowd->enter(name, "tiny", seat.viewer));
+        seat.room =
+            std::get<std::shared_ptr<Room>>(crowd->enter(name, "tiny", seat.viewer, "here"));
         seat.patch = {{"environment", {{"gain", 0.5 + 0.25 * static_cast<double>(i)}}},
                       {"background", {{"mode", "colour"}, {"colour", {0, 0, 0}}}}};
         edit(*seat.room, *seat.viewer, seat.patch);

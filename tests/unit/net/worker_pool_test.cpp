@@ -10,6 +10,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <thread>
 
 namespace relume::net {
 namespace {
@@ -152,6 +153,58 @@ TEST(WorkerPool, ACompanyGoesTogether) {
     gate.open();
     finish(pool);
     EXPECT_EQ(order.text(), "abcxydrsqt");
+}
+
+// As if each of two had half of the time; and whatever one has taken, it is forgiven in the
+// end.
+TEST(WorkAccount, IsPaidAsItsShareOfTheTimeComes) {
+    using std::chrono::milliseconds;
+    const Clock::time_point start = Clock::now();
+    WorkAccount account;
+    EXPECT_LT(account.paid_until(), start);
+    account.charge(start, milliseconds(10), 1);
+    EXPECT_EQ(account.paid_until(), start + milliseconds(10));
+    account.charge(start + milliseconds(10), milliseconds(10), 2);
+    EXPECT_EQ(account.paid_until(), start + milliseconds(30));
+    account.charge(start + milliseconds(20), milliseconds(10), 2);
+    EXPECT_EQ(account.paid_until(), start + milliseconds(50));
+    account.charge(start + milliseconds(100), milliseconds(10), 2);
+    EXPECT_EQ(account.paid_until(), start + milliseconds(120)) << "what was not taken is gone";
+    account.charge(start + milliseconds(200), milliseconds(10), 1000);
+    EXPECT_LE(account.paid_until(), start + milliseconds(800));
+}
+
+// Two want the worker all the time, one in long slices and one in short ones: each gets about
+// half of the time, so the other gets many more slices.
+TEST(WorkerPool, TimeIsSharedByCostNotByTurns) {
+    class Greedy : public WorkItem, public std::enable_shared_from_this<Greedy> {
+      public:
+        Greedy(WorkerPool& pool, Clock::duration slice) : pool_(pool), slice_(slice) {}
+        void run(std::span<const std::shared_ptr<WorkItem>> /*others*/) noexcept override {
+            const Clock::time_point end = Clock::now() + slice_;
+            while (Clock::now() < end) {
+            }
+            ++slices;
+            pool_.enqueue(shared_from_this(), WorkPriority::edit, since_);
+        }
+        std::atomic<int> slices{0};
+
+      private:
+        WorkerPool& pool_;
+        const Clock::duration slice_;
+        const Clock::time_point since_ = Clock::now();  // always in a hurry
+    };
+    WorkerPool pool(1, {});
+    const auto slow = std::make_shared<Greedy>(pool, std::chrono::milliseconds(16));
+    const auto quick = std::make_shared<Greedy>(pool, std::chrono::milliseconds(1));
+    pool.enqueue(slow, WorkPriority::edit);
+    pool.enqueue(quick, WorkPriority::edit);
+    while (slow->slices < 8) {
+        std::this_thread::yield();
+    }
+    pool.stop();
+    // Turns would be eight of each; half of the time is more than a hundred.
+    EXPECT_GT(quick->slices, 4 * slow->slices);
 }
 
 TEST(WorkerPool, DelayedItemsRunAndAreReplaced) {

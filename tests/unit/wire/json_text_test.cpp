@@ -86,6 +86,10 @@ TEST(JsonText, QuotesShortlyAndInValidUtf8) {
 TEST(JsonText, EscapesPointerSteps) {
     EXPECT_EQ(pointer_step("/lights", "a/b~c"), "/lights/a~1b~0c");
     EXPECT_EQ(pointer_step("", ""), "/");
+    EXPECT_EQ(pointer_step("/a", std::string(128, 'k')), "/a/" + std::string(128, 'k'));
+    EXPECT_EQ(pointer_step("/a", std::string(129, 'k')), "/a/" + std::string(128, 'k') + "…");
+    EXPECT_EQ(pointer_step("", std::string(127, 'k') + "éé"),
+              "/" + std::string(127, 'k') + "…");
 }
 
 }  // namespace
