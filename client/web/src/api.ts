@@ -73,7 +73,9 @@ export class Api {
             method: "POST",
             headers: {
                 "Content-Type": "application/octet-stream",
-                ...(this.token === null ? {} : { Authorization: `Bearer ${this.token}` }),
+                ...(this.token === null
+                    ? {}
+                    : { Authorization: `Bearer ${utf8Bytes(this.token)}` }),
             },
             body: file,
         });
@@ -101,4 +103,10 @@ export class Api {
         }
         throw new ApiError(`The server answered ${response.status} ${response.statusText}`);
     }
+}
+
+/** The bytes of `text` as characters U+0000 … U+00FF: a header carries bytes. */
+function utf8Bytes(text: string): string {
+    const bytes = new TextEncoder().encode(text);
+    return Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
 }
