@@ -3,6 +3,7 @@
 #include "precompute/bake/error.h"
 #include "precompute/bake/fingerprint.h"
 #include "precompute/bake/peak_memory.h"
+#include "precompute/bake/sampling_error.h"
 #include "precompute/bake/shard_baker.h"
 #include "precompute/bake/version.h"
 #include "precompute/bake/view_files.h"
@@ -130,6 +131,7 @@ class Bake {
         {
             const Stopwatch watch(summary_.pilot_seconds);
             quantisation_ = plan_quantisation(rows_, window_, image_, parameters_);
+            manifest_.sampling_error = measure_sampling_error(caster_, camera_, parameters_);
         }
         manifest_.colour = quantisation_.colour;
         transport::TransportWriter writer(directory_, manifest_, plan_shards(image_));

@@ -137,6 +137,7 @@ nlohmann::json describe(const std::filesystem::path& directory) {
          {{"channels", manifest.colour.channels}, {"matrix", manifest.colour.matrix}}},
         {"shards", manifest.shards.size()},
         {"bytes", transport->total_bytes()},
+        {"sampling_error", transport::json_from(manifest.sampling_error)},
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
     std::uint64_t nonzeros = 0;
@@ -164,6 +165,11 @@ std::string text_from_description(const nlohmann::json& d) {
         d.at("nonzeros").get<double>() / pixels,
         fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
         fmt::arg("basis", basis_text(d.at("basis"))));
+    if (const auto& error = d.at("sampling_error"); !error.is_null()) {
+        text +=
+            fmt::format("  sampling error: L2 {:.2e} under natural light, {:.2e} under sun\n",
+                        error.at("natural").get<double>(), error.at("sun").get<double>());
+    }
     text += text_from_measured(d.at("measured"));
     return text + text_from_report(d.at("report"));
 }

@@ -72,8 +72,8 @@ void PathPool::gather(std::uint32_t x,
     const PixelSurface& own = centre.view.surfaces[surface];
     const float nearness = centre.paths[surface].nearness;
     const float falloff = 2.0F / squared(static_cast<float>(radius_));  // σ = radius/2
-    const std::uint32_t left = x > radius_ ? x - radius_ : 0;
-    const std::uint32_t right = std::min(x + radius_ + 1, window_.width());
+    const std::uint32_t left = std::max(x > radius_ ? x - radius_ : 0, window_.columns().left);
+    const std::uint32_t right = std::min(x + radius_ + 1, window_.columns().right);
     const std::uint32_t top = std::max(y > radius_ ? y - radius_ : 0, window_.top());
     const std::uint32_t bottom = std::min(y + radius_ + 1, window_.bottom());
     float total = 0;

@@ -1,8 +1,8 @@
 #include "precompute/bake/pilot.h"
 
 #include "precompute/bake/colour_split.h"
+#include "precompute/bake/sample_tiles.h"
 #include "precompute/bake/step_chooser.h"
-#include "protocol/transport/hash.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -19,42 +19,7 @@ namespace {
 constexpr double kColourless = 1e-3;
 constexpr double kPixelsLookedAt = 16384;
 constexpr std::size_t kChromaPixels = 128;  // of each group
-constexpr std::uint32_t kMostTiles = 16;
-constexpr std::uint32_t kTilesPerPilotTile = 16;
-
-struct Tile {
-    std::uint32_t left = 0;
-    std::uint32_t top = 0;
-};
-
-// Tiles spread evenly over those in whose middle the scene is seen; all others when there are
-// none.
-std::vector<Tile> pilot_tiles(const TileWindow& window,
-                              const transport::TileGrid& image,
-                              std::uint64_t seed) {
-    std::vector<Tile> tiles;
-    std::vector<Tile> occupied;
-    for (std::uint32_t block = 0; block < image.block_count(); ++block) {
-        const Tile tile{.left = block % image.tiles_x() * transport::kTileSide,
-                        .top = block / image.tiles_x() * transport::kTileSide};
-        const std::uint32_t x = std::min(tile.left + transport::kTileSide / 2, image.width - 1);
-        const std::uint32_t y = std::min(tile.top + transport::kTileSide / 2, image.height - 1);
-        tiles.push_back(tile);
-        if (window.surface_count(x, y) > 0) {
-            occupied.push_back(tile);
-        }
-    }
-    const std::vector<Tile>& from = occupied.empty() ? tiles : occupied;
-    const auto count = std::clamp<std::size_t>(from.size() / kTilesPerPilotTile, 1, kMostTiles);
-    std::vector<Tile> chosen;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double jitter = double{transport::unit_float(transport::mix_bits(seed + i))};
-        const double place = (static_cast<double>(i) + jitter) / static_cast<double>(count);
-        chosen.push_back(
-            from[static_cast<std::size_t>(place * static_cast<double>(from.size()))]);
-    }
-    return chosen;
-}
+constexpr SampleCount kPilotTiles{.every = 16, .least = 1, .most = 16};
 
 struct Pixel {
     std::uint32_t x = 0;
@@ -130,7 +95,8 @@ StepChooser look_at_tiles(const RowBaker& rows,
                           const TileWindow& window,
                           const transport::TileGrid& image,
                           const BakeParameters& parameters) {
-    const std::vector<Tile> tiles = pilot_tiles(window, image, parameters.seed);
+    const std::vector<SampleTile> tiles =
+        sample_tiles(window, image, kPilotTiles, parameters.seed);
     StepChooser chooser(light_basis(parameters), tiles.size());
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(std::size_t{0}, tiles.size() * transport::kBlockSize, [&](std::size_t i) {

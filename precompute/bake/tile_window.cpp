@@ -15,14 +15,7 @@ namespace relume::bake {
 TileWindow::TileWindow(const RayCaster& caster,
                        const scene::Camera& camera,
                        const BakeParameters& parameters)
-    : caster_(caster),
-      camera_(camera),
-      parameters_(parameters),
-      tracer_(caster,
-              parameters.face_resolution,
-              parameters.bounces,
-              parameters.samples,
-              parameters.seed) {
+    : TileWindow(caster, camera, parameters, {.left = 0, .right = camera.width()}) {
     // The tallest window: the tile rows of a shard and the pool's reach on both sides.
     const std::uint32_t tiles_x =
         transport::TileGrid{camera.width(), camera.height()}.tiles_x();
@@ -39,8 +32,25 @@ TileWindow::TileWindow(const RayCaster& caster,
     }
 }
 
+TileWindow::TileWindow(const RayCaster& caster,
+                       const scene::Camera& camera,
+                       const BakeParameters& parameters,
+                       const PixelColumns& columns)
+    : caster_(caster),
+      camera_(camera),
+      parameters_(parameters),
+      tracer_(caster,
+              parameters.face_resolution,
+              parameters.bounces,
+              parameters.samples,
+              parameters.seed) {
+    const std::uint32_t reach = pool_reach();
+    columns_ = {.left = columns.left > reach ? columns.left - reach : 0,
+                .right = std::min(columns.right + reach, camera.width())};
+}
+
 std::uint64_t TileWindow::move_to(std::uint32_t first, std::uint32_t last) {
-    const std::uint32_t reach = parameters_.bounces > 0 ? parameters_.pool_radius : 0;
+    const std::uint32_t reach = pool_reach();
     const std::uint32_t top = first > reach ? first - reach : 0;
     const std::uint32_t end = std::min(last + reach, camera_.height());
     if (rows_.empty() || top >= bottom()) {
@@ -52,19 +62,19 @@ std::uint64_t TileWindow::move_to(std::uint32_t first, std::uint32_t last) {
     }
     const std::uint32_t missing = bottom();
     for (std::uint32_t y = missing; y < end; ++y) {
-        rows_.emplace_back(camera_.width());
+        rows_.emplace_back(columns_.right - columns_.left);
     }
     if (missing >= end) {
         return 0;
     }
     std::atomic<std::uint64_t> rays = 0;
     tbb::parallel_for(
-        tbb::blocked_range2d<std::uint32_t>(missing, end, 4, 0, camera_.width(), 16),
+        tbb::blocked_range2d<std::uint32_t>(missing, end, 4, columns_.left, columns_.right, 16),
         [&](const tbb::blocked_range2d<std::uint32_t>& range) {
             std::uint64_t cast = 0;
             for (std::uint32_t y = range.rows().begin(); y != range.rows().end(); ++y) {
                 for (std::uint32_t x = range.cols().begin(); x != range.cols().end(); ++x) {
-                    TracedPixel& pixel = rows_[y - top_][x];
+                    TracedPixel& pixel = rows_[y - top_][x - columns_.left];
                     pixel = trace(x, y);
                     for (const SurfacePaths& paths : pixel.paths) {
                         cast += paths.rays;
@@ -74,6 +84,10 @@ std::uint64_t TileWindow::move_to(std::uint32_t first, std::uint32_t last) {
             rays += cast;
         });
     return rays;
+}
+
+std::uint32_t TileWindow::pool_reach() const {
+    return parameters_.bounces > 0 ? parameters_.pool_radius : 0;
 }
 
 std::size_t TileWindow::surface_count(std::uint32_t x, std::uint32_t y) const {

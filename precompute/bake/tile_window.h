@@ -16,6 +16,12 @@
 
 namespace relume::bake {
 
+// Columns of pixels [left, right).
+struct PixelColumns {
+    std::uint32_t left = 0;
+    std::uint32_t right = 0;
+};
+
 struct TracedPixel {
     PixelView view;
     std::vector<SurfacePaths> paths;  // one per surface; none when the bake has no bounces
@@ -23,10 +29,15 @@ struct TracedPixel {
 
 class TileWindow {
   public:
-    // Throws BakeError when the paths that pooling keeps could pass kMaxPathBytes.
+    // Whole rows. Throws BakeError when the paths that pooling keeps could pass kMaxPathBytes.
     TileWindow(const RayCaster& caster,
                const scene::Camera& camera,
                const BakeParameters& parameters);
+    // A part of every row: these columns and those within the pool radius of them.
+    TileWindow(const RayCaster& caster,
+               const scene::Camera& camera,
+               const BakeParameters& parameters,
+               const PixelColumns& columns);
 
     static constexpr std::uint64_t kMaxPathBytes = std::uint64_t{2} << 30U;
 
@@ -37,9 +48,10 @@ class TileWindow {
 
     // A pixel of the rows in reach. Thread-safe while move_to does not run.
     [[nodiscard]] const TracedPixel& pixel(std::uint32_t x, std::uint32_t y) const {
-        return rows_[y - top_][x];
+        return rows_[y - top_][x - columns_.left];
     }
-    [[nodiscard]] std::uint32_t width() const { return camera_.width(); }
+    // Columns in reach.
+    [[nodiscard]] const PixelColumns& columns() const { return columns_; }
     // Rows in reach are [top, bottom).
     [[nodiscard]] std::uint32_t top() const { return top_; }
     [[nodiscard]] std::uint32_t bottom() const {
@@ -52,9 +64,13 @@ class TileWindow {
     [[nodiscard]] TracedPixel trace(std::uint32_t x, std::uint32_t y) const;
 
   private:
+    // Pixels around a pixel whose paths it may share.
+    [[nodiscard]] std::uint32_t pool_reach() const;
+
     const RayCaster& caster_;
     const scene::Camera& camera_;
     BakeParameters parameters_;
+    PixelColumns columns_;
     PathTracer tracer_;
     std::deque<std::vector<TracedPixel>> rows_;
     std::uint32_t top_ = 0;

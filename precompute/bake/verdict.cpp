@@ -81,7 +81,17 @@ std::string purpose(const nlohmann::json& description) {
                        image.at("height").get<int>());
 }
 
-std::string errors(const nlohmann::json& measured) {
+std::string sampling_error(const nlohmann::json& error) {
+    if (error.is_null()) {
+        return {};
+    }
+    return fmt::format(
+        "  error of its sampling: {} of the image under a natural map, {} under a bare sun "
+        "(relative L2)\n",
+        per_cent(error.at("natural").get<double>()), per_cent(error.at("sun").get<double>()));
+}
+
+std::string quantisation_error(const nlohmann::json& measured) {
     const auto found = measured.find("quantisation_error");
     if (found == measured.end() || !found->contains("natural") || !found->contains("sun")) {
         return {};
@@ -113,7 +123,8 @@ std::string verdict(const scene::ImportReport& report,
                     const std::filesystem::path& directory) {
     std::string text = fmt::format("{} is whole.\n", printable(directory.string()));
     text += purpose(description);
-    text += errors(description.at("measured"));
+    text += sampling_error(description.at("sampling_error"));
+    text += quantisation_error(description.at("measured"));
     text += fmt::format("  {:.1f} MB to keep in memory\n",
                         description.at("bytes").get<double>() / 1e6);
     add_list(text, "not used of the scene", report.unused);

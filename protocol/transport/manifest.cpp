@@ -81,6 +81,13 @@ class ObjectReader {
         }
         return *value;
     }
+    [[nodiscard]] double not_negative(const char* key) const {
+        const json& value = member(key);
+        if (!is_single(value) || value.get<double>() < 0) {
+            fail(key, text::quote(value), "a number that is not negative");
+        }
+        return value.get<double>();
+    }
     [[nodiscard]] float number(const char* key) const { return number_from(member(key), key); }
     [[nodiscard]] Imath::V3f vector(const char* key) const {
         const json& value = member(key);
@@ -331,6 +338,10 @@ json json_from(const basis::LightBasis& basis) {
     return object;
 }
 
+json json_from(const std::optional<SamplingError>& error) {
+    return error ? json{{"natural", error->natural}, {"sun", error->sun}} : json();
+}
+
 Imath::V3f CameraRecord::direction_from_pixel(float x, float y, const TileGrid& image) const {
     const float right_amount = (2 * x / static_cast<float>(image.width) - 1) * tan_half_width;
     const float up_amount = (1 - 2 * y / static_cast<float>(image.height)) * tan_half_height;
@@ -342,7 +353,7 @@ std::string text_from_manifest(const Manifest& manifest) {
     for (const ShardRecord& shard : manifest.shards) {
         shards.push_back(json_from(shard));
     }
-    const json object{
+    json object{
         {"format", "relume-transport"},
         {"version", kFormatVersion},
         {"kind", kKind},
@@ -362,6 +373,9 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"camera", json_from(manifest.camera)},
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
+    if (manifest.sampling_error) {
+        object["sampling_error"] = json_from(manifest.sampling_error);
+    }
     // The object's text without its opening brace follows the checksum line.
     const std::string body =
         object.dump(1, ' ', false, json::error_handler_t::replace).substr(1) + "\n";
@@ -400,6 +414,11 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     manifest.sketch = file_record(files.object("sketch"));
     manifest.shards = shard_records(top, manifest.block_count(), file);
     manifest.camera = camera_record(top.object("camera"));
+    if (parsed.contains("sampling_error")) {
+        const ObjectReader error = top.object("sampling_error");
+        manifest.sampling_error = {.natural = error.not_negative("natural"),
+                                   .sun = error.not_negative("sun")};
+    }
     manifest.bake = top.notes("bake");
     manifest.measured = top.notes("measured");
     return manifest;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,18 @@ struct ColourModel {
     std::array<std::array<float, kMaxChannels>, kColours> matrix{};
 };
 
+// Relative L2 error that the bake's sampling leaves in an image, over the pixels that see the
+// scene, root mean square over lights of a kind: maps that fall off as photographed ones do,
+// and one texel of sun.
+struct SamplingError {
+    double natural = 0;
+    double sun = 0;
+
+    friend bool operator==(const SamplingError&, const SamplingError&) = default;
+};
+// {"natural", "sun"}; null where there is none.
+[[nodiscard]] nlohmann::json json_from(const std::optional<SamplingError>& error);
+
 struct Manifest {
     std::string generator;
     std::uint64_t fingerprint = 0;
@@ -73,6 +86,7 @@ struct Manifest {
     FileRecord sketch;
     std::vector<ShardRecord> shards;
     CameraRecord camera;
+    std::optional<SamplingError> sampling_error;  // where the bake has estimated it
     nlohmann::json bake = nlohmann::json::object();
     nlohmann::json measured = nlohmann::json::object();
 

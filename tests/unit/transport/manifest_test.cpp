@@ -48,6 +48,30 @@ TEST(Manifest, ComesBackFromItsText) {
     EXPECT_NO_THROW((void)manifest_from_text(changed([](auto&) {}), "m"));
 }
 
+TEST(Manifest, SamplingErrorIsOptional) {
+    Manifest manifest = sample();
+    EXPECT_FALSE(manifest_from_text(text_from_manifest(manifest), "m").sampling_error);
+    manifest.sampling_error = {.natural = 0.008, .sun = 0.1};
+    EXPECT_EQ(manifest_from_text(text_from_manifest(manifest), "m").sampling_error,
+              manifest.sampling_error);
+}
+
+TEST(Manifest, RefusesEveryWrongSamplingError) {
+    const nlohmann::json wrong[] = {nullptr,
+                                    0.1,
+                                    nlohmann::json::object(),
+                                    {{"natural", 0.1}},
+                                    {{"natural", -0.1}, {"sun", 0.1}},
+                                    {{"natural", "0.1"}, {"sun", 0.1}},
+                                    {{"natural", 0.1}, {"sun", 1e300}}};
+    for (const nlohmann::json& error : wrong) {
+        EXPECT_THROW((void)manifest_from_text(
+                         changed([&](auto& object) { object["sampling_error"] = error; }), "m"),
+                     TransportError)
+            << error;
+    }
+}
+
 TEST(Manifest, NamesEitherBasisOfLight) {
     for (const basis::LightBasis& basis :
          {basis::LightBasis::haar(16), basis::LightBasis::spherical_harmonics(1, 4),
