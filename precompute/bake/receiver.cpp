@@ -39,21 +39,26 @@ class PixelGatherer {
 
     void cast(float x, float y, float centre_distance) {
         ++casts_;
-        const Imath::V3f direction = camera_.direction_from_pixel(x, y);
-        const auto hit = caster_.closest_hit(camera_.eye(), direction);
-        if (!hit) {
+        const std::optional<Seen> seen = look(x, y);
+        if (!seen) {
             return;
         }
-        PixelSurface surface;
-        surface.point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
-                                             hit->barycentric, direction);
-        surface.material = caster_.scene().meshes[hit->mesh].material;
-        surface.footprint = hit->distance * 2 * camera_.tan_half_height() /
-                            static_cast<float>(camera_.height());
-        depth_sum_ += hit->distance * direction.dot(camera_.forward());
-        albedo_sum_ += colour_of(surface.point);
+        depth_sum_ += seen->depth;
+        albedo_sum_ += colour_of(seen->surface.point);
         ++hits_;
-        gather(surface, centre_distance);
+        gather(seen->surface, centre_distance);
+    }
+
+    // Whether what was cast so far met more than one smooth surface, or a surface and the sky.
+    [[nodiscard]] bool meets_edge() const {
+        return gathered_.size() > 1 || (hits_ > 0 && hits_ < casts_);
+    }
+    // Whether a ray would meet something else than those before it, which meet no edge.
+    [[nodiscard]] bool differs(float x, float y) const {
+        const std::optional<Seen> seen = look(x, y);
+        return gathered_.empty()
+                   ? seen.has_value()
+                   : !seen || !same_surface(gathered_.front().surface, seen->surface);
     }
 
     [[nodiscard]] PixelView view() && {
@@ -79,6 +84,27 @@ class PixelGatherer {
     }
 
   private:
+    struct Seen {
+        PixelSurface surface;
+        float depth = 0;  // along the view axis
+    };
+
+    [[nodiscard]] std::optional<Seen> look(float x, float y) const {
+        const Imath::V3f direction = camera_.direction_from_pixel(x, y);
+        const auto hit = caster_.closest_hit(camera_.eye(), direction);
+        if (!hit) {
+            return std::nullopt;
+        }
+        Seen seen;
+        seen.surface.point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
+                                                  hit->barycentric, direction);
+        seen.surface.material = caster_.scene().meshes[hit->mesh].material;
+        seen.surface.footprint = hit->distance * 2 * camera_.tan_half_height() /
+                                 static_cast<float>(camera_.height());
+        seen.depth = hit->distance * direction.dot(camera_.forward());
+        return seen;
+    }
+
     void gather(const PixelSurface& surface, float centre_distance) {
         auto found = std::find_if(gathered_.begin(), gathered_.end(), [&](const Gathered& one) {
             return same_surface(one.surface, surface);
@@ -103,6 +129,23 @@ class PixelGatherer {
     std::uint32_t casts_ = 0;
 };
 
+// Casts `count` rays on a jittered grid over the pixel whose upper left corner is (left, top).
+void cast_grid(
+    PixelGatherer& gatherer, float left, float top, std::uint32_t count, std::uint64_t key) {
+    const auto columns =
+        static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<float>(count))));
+    const std::uint32_t rows = (count + columns - 1) / columns;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint64_t bits = transport::mix_bits(key + i);
+        const float dx = (static_cast<float>(i % columns) + transport::unit_float(bits)) /
+                         static_cast<float>(columns);
+        const float dy =
+            (static_cast<float>(i / columns) + transport::unit_float(bits << 32U)) /
+            static_cast<float>(rows);
+        gatherer.cast(left + dx, top + dy, std::hypot(dx - 0.5F, dy - 0.5F));
+    }
+}
+
 }  // namespace
 
 PixelView view_pixel(const RayCaster& caster,
@@ -116,19 +159,14 @@ PixelView view_pixel(const RayCaster& caster,
     const auto top = static_cast<float>(y);
     gatherer.cast(left + 0.5F, top + 0.5F, 0);
     if (pixel_samples > 1) {
-        const auto columns =
-            static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<float>(pixel_samples))));
-        const std::uint32_t rows = (pixel_samples + columns - 1) / columns;
         const std::uint64_t key =
             transport::mix_bits(seed ^ (std::uint64_t{y} * camera.width() + x));
-        for (std::uint32_t i = 0; i < pixel_samples; ++i) {
-            const std::uint64_t bits = transport::mix_bits(key + i);
-            const float dx = (static_cast<float>(i % columns) + transport::unit_float(bits)) /
-                             static_cast<float>(columns);
-            const float dy =
-                (static_cast<float>(i / columns) + transport::unit_float(bits << 32U)) /
-                static_cast<float>(rows);
-            gatherer.cast(left + dx, top + dy, std::hypot(dx - 0.5F, dy - 0.5F));
+        cast_grid(gatherer, left, top, pixel_samples, key);
+        if (gatherer.meets_edge() || gatherer.differs(left, top) ||
+            gatherer.differs(left + 1, top) || gatherer.differs(left, top + 1) ||
+            gatherer.differs(left + 1, top + 1)) {
+            cast_grid(gatherer, left, top, kEdgeFactor * pixel_samples,
+                      transport::mix_bits(key));
         }
     }
     return std::move(gatherer).view();
