@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 wire::SceneSummary ServedScene::summary() const {
     const basis::LightBasis& basis = engine->light_basis();
     const bool is_haar = basis.kind() == basis::LightBasis::Kind::haar;
+    const auto& sampling = engine->transport().manifest().sampling_error;
     return {.name = name,
             .kind = std::string(transport::kKind),
             .width = engine->image().width,
@@ -32,7 +33,7 @@ wire::SceneSummary ServedScene::summary() const {
             .channels = engine->transport().manifest().colour.channels,
             .bytes = engine->transport().total_bytes(),
             .memory_bytes = engine->bytes(),
-            .bake_error = std::nullopt,
+            .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
             .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
                       "budget", "display"}};
 }
