@@ -42,7 +42,8 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     app.add_option("--bits", p.bits, "Precision of stored values: 6, 7 or 8")
         ->capture_default_str();
-    app.add_option("--pixel-samples", p.pixel_samples, "Camera positions per pixel; edges get eight times as many")
+    app.add_option("--pixel-samples", p.pixel_samples,
+                   "Camera positions per pixel; edges get eight times as many")
         ->capture_default_str();
     app.add_option("--edge-samples", p.edge_samples,
                    "More visibility rays per light texel at shadow edges")

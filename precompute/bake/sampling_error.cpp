@@ -20,8 +20,8 @@
 namespace relume::bake {
 namespace {
 
-constexpr SampleCount kTiles{.every = 64, .least = 4, .most = 32};
-constexpr std::uint32_t kPixelSpacing = 4;  // along both sides of a tile
+constexpr SampleCount kTiles{.every = 32, .least = 12, .most = 48};
+constexpr std::uint32_t kPixelSpacing = 2;  // along both sides of a tile
 constexpr std::size_t kLightsPerKind = 4;
 constexpr std::size_t kKinds = 2;  // natural, sun
 constexpr std::size_t kLights = kKinds * kLightsPerKind;
