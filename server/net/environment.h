@@ -29,6 +29,8 @@ class Environment {
         EnvironmentKind kind = EnvironmentKind::file;
         std::uint32_t width = 0;
         std::uint32_t height = 0;
+        // Of the map behind the name: higher than that of any earlier one of this server.
+        std::uint64_t version = 0;
     };
     using Load = std::function<light::EnvironmentMap()>;
     using SharedMap = std::shared_ptr<const light::EnvironmentMap>;

@@ -97,6 +97,7 @@ void EnvironmentLibrary::add_file(const fs::path& file, light::MapCentre centre)
 void EnvironmentLibrary::add(Environment::Description description, Environment::Load load) {
     const std::lock_guard lock(mutex_);
     std::string name = description.name;
+    description.version = ++last_version_;
     environments_.insert_or_assign(
         std::move(name),
         std::make_shared<Environment>(std::move(description), std::move(load), cache_));
@@ -112,15 +113,22 @@ void EnvironmentLibrary::check_upload_name(std::string_view name) const {
 }
 
 void EnvironmentLibrary::add_upload(const std::string& name, light::EnvironmentMap map) {
+    check_upload_name(name);
+    if (put_upload(name, std::move(map)) && tell_replaced_) {
+        tell_replaced_(name);
+    }
+}
+
+bool EnvironmentLibrary::put_upload(const std::string& name, light::EnvironmentMap map) {
     const std::size_t bytes = Environment::bytes_of(map);
+    const std::lock_guard lock(mutex_);
     auto environment = std::make_shared<Environment>(
         Environment::Description{.name = name,
                                  .kind = EnvironmentKind::upload,
                                  .width = map.width(),
-                                 .height = map.height()},
+                                 .height = map.height(),
+                                 .version = ++last_version_},
         std::make_shared<const light::EnvironmentMap>(std::move(map)), cache_);
-    check_upload_name(name);
-    const std::lock_guard lock(mutex_);
     const auto earlier = std::find_if(uploads_.begin(), uploads_.end(), [&](const Upload& u) {
         return u.environment->description().name == name;
     });
@@ -143,6 +151,7 @@ void EnvironmentLibrary::add_upload(const std::string& name, light::EnvironmentM
     uploads_.push_back({.environment = environment, .bytes = bytes});
     upload_bytes_ += bytes;
     environments_.insert_or_assign(name, std::move(environment));
+    return !replaced.empty();
 }
 
 bool EnvironmentLibrary::has_room_for_locked(std::size_t bytes) const {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -43,6 +44,11 @@ class EnvironmentLibrary {
     // many, those that no room uses go first. Throws WireError: unsupported when the name is
     // taken by what is no upload, too_many when nothing can be dropped.
     void add_upload(const std::string& name, light::EnvironmentMap map);
+    // Called, without locks held, after an upload has taken the place of an earlier one. Set
+    // before uploads come.
+    void when_replaced(std::function<void(const std::string& name)> tell) {
+        tell_replaced_ = std::move(tell);
+    }
     // As add_upload would refuse it by name alone.
     void check_upload_name(std::string_view name) const;
 
@@ -62,13 +68,17 @@ class EnvironmentLibrary {
 
     void add_file(const std::filesystem::path& file, light::MapCentre centre);
     void add(Environment::Description description, Environment::Load load);
+    // True when there was an earlier one.
+    bool put_upload(const std::string& name, light::EnvironmentMap map);
     void drop_unused_upload_locked();
     [[nodiscard]] bool has_room_for_locked(std::size_t bytes) const;
 
     const EnvironmentBounds bounds_;
     const std::shared_ptr<ResidentCache> cache_;
+    std::function<void(const std::string&)> tell_replaced_;
     mutable std::mutex mutex_;
     std::map<std::string, SharedEnvironment, std::less<>> environments_;
+    std::uint64_t last_version_ = 0;
     std::list<Upload> uploads_;  // the oldest in front
     std::size_t upload_bytes_ = 0;
 };

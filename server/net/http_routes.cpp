@@ -169,6 +169,7 @@ HttpReply HttpRoutes::environments() const {
     for (const Environment::Description& environment : environments_.list()) {
         all.push_back({{"name", environment.name},
                        {"kind", name_from(environment.kind)},
+                       {"version", environment.version},
                        {"width", environment.width},
                        {"height", environment.height}});
     }

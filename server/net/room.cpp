@@ -117,6 +117,34 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
     threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *untaken_edit_);
 }
 
+void Room::environment_replaced(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    nlohmann::json patch = nlohmann::json::object();
+    if (state_.environment.name == name) {
+        patch["environment"]["name"] = name;
+    }
+    if (state_.blend.name == name) {
+        patch["blend"]["name"] = name;
+    }
+    if (patch.empty() || stopped_) {
+        return;
+    }
+    environments_ = environments_after(environments_, state_, patch, library_);
+    revision_ += 1;
+    settled_frame_.reset();
+    const Clock::time_point now = Clock::now();
+    last_edit_ = now;
+    if (!untaken_edit_) {
+        untaken_edit_ = now;
+    }
+    for (const SharedOutbox& viewer : viewers_) {
+        if (!viewer->put_change({.revision = revision_, .patch = patch, .edit_id = {}})) {
+            viewer->put_snapshot(snapshot_locked());
+        }
+    }
+    threads_.workers.enqueue(shared_from_this(), WorkPriority::edit, *untaken_edit_);
+}
+
 void Room::acknowledge(Outbox& viewer, std::uint64_t sequence) {
     viewer.acknowledge(sequence);
     const std::lock_guard lock(mutex_);

@@ -66,6 +66,9 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
 
     // Throws WireError; the state is then as before.
     void edit(const Outbox& author, const wire::Edit& edit, Clock::time_point read_at);
+    // The map behind a name has changed: who is lit by it is relit. Viewers get a change that
+    // names it again.
+    void environment_replaced(const std::string& name);
     void acknowledge(Outbox& viewer, std::uint64_t sequence);
 
     // Refuses edits from now on (shutting_down).

@@ -163,6 +163,13 @@ void Rooms::run(std::span<const std::shared_ptr<WorkItem>> /*others*/) noexcept 
     }
 }
 
+void Rooms::environment_replaced(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [room_name, entry] : rooms_) {
+        entry.room->environment_replaced(name);
+    }
+}
+
 void Rooms::stop_edits() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;

@@ -52,6 +52,9 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     // as anybody is in it; one that is empty gives way.
     void drop_outdated();
 
+    // As Room::environment_replaced, for all.
+    void environment_replaced(const std::string& name);
+
     // No new rooms or clients, no more edits.
     void stop_edits();
     [[nodiscard]] bool has_pending_edit() const;

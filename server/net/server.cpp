@@ -91,7 +91,10 @@ struct Server::Parts {
                    configuration.limits,
                    configuration.connection,
                    slow_requests},
-          listener(io, endpoint_from_address(c.listen)) {}
+          listener(io, endpoint_from_address(c.listen)) {
+        environments.when_replaced(
+            [this](const std::string& name) { rooms->environment_replaced(name); });
+    }
 
     const Configuration configuration;
     Metrics metrics;

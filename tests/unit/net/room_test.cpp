@@ -164,6 +164,41 @@ TEST_F(RoomTest, TheSettledImageIsTheDenseProductOverTransparency) {
     EXPECT_LT(std::sqrt(difference / norm), 5e-4);  // a half's rounding
 }
 
+TEST_F(RoomTest, AnUploadThatReplacesANameRelightsTheRoomsThatItLights) {
+    const auto constant_map = [](float value) {
+        return light::EnvironmentMap(
+            {16, 8, std::vector<float>(std::size_t{3} * 16 * 8, value)},
+            light::Projection::lat_long);
+    };
+    environments_.when_replaced(
+        [this](const std::string& name) { rooms_->environment_replaced(name); });
+    environments_.add_upload("mine", constant_map(1));
+    const std::uint64_t first_version = environments_.find("mine")->description().version;
+    const auto viewer = outbox(ImageInterest::settled);
+    const auto room = enter(viewer);
+    edit(*room, *viewer, {{"environment", {{"name", "mine"}}}});
+    const SharedImageFrame before = settled_image(*room, *viewer, 1);
+    ASSERT_NE(before, nullptr);
+
+    environments_.add_upload("mine", constant_map(2));
+    std::vector<json> texts;
+    const SharedImageFrame after = settled_image(*room, *viewer, 2, &texts);
+    ASSERT_NE(after, nullptr);
+    EXPECT_TRUE(after->header.exact);
+    EXPECT_NE(after->bytes, before->bytes);
+    EXPECT_GT(environments_.find("mine")->description().version, first_version);
+    ASSERT_FALSE(texts.empty());
+    EXPECT_EQ(texts.front()["type"], "change");
+    EXPECT_EQ(texts.front()["revision"], 2);
+    EXPECT_EQ(texts.front()["patch"], (json{{"environment", {{"name", "mine"}}}}));
+
+    // A name that lights nothing here changes nothing.
+    environments_.add_upload("other", constant_map(1));
+    environments_.add_upload("other", constant_map(2));
+    edit(*room, *viewer, {{"environment", {{"gain", 2}}}});
+    EXPECT_NE(settled_image(*room, *viewer, 3), nullptr);
+}
+
 TEST_F(RoomTest, EditsTakenTogetherMakeOneStateAndEveryViewerSeesIt) {
     const auto author = outbox();
     const auto other = outbox(ImageInterest::settled);
