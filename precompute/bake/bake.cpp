@@ -2,6 +2,7 @@
 
 #include "precompute/bake/error.h"
 #include "precompute/bake/fingerprint.h"
+#include "precompute/bake/framing.h"
 #include "precompute/bake/peak_memory.h"
 #include "precompute/bake/sampling_error.h"
 #include "precompute/bake/shard_baker.h"
@@ -49,8 +50,8 @@ transport::ShardPlan plan_shards(const transport::TileGrid& image) {
         .blocks_per_shard = rows > 0 ? rows * image.tiles_x() : transport::kMaxBlocksPerShard};
 }
 
-transport::CameraRecord record_of(const scene::Camera& camera) {
-    return {.eye = camera.eye(),
+transport::CameraRecord record_of(const scene::Camera& camera, const scene::WorldFrame& frame) {
+    return {.eye = Imath::V3f(frame.world_from_position(camera.eye())),
             .right = camera.right(),
             .up = camera.up(),
             .forward = camera.forward(),
@@ -114,13 +115,14 @@ class Bake {
           window_(caster_, camera_, parameters_),
           rows_(caster_, texels_, parameters_),
           progress_(hooks, std::uint64_t{parameters.width} * parameters.height) {
+        check_framing(caster_, camera_, parameters);
         manifest_.generator = generator();
         manifest_.fingerprint = fingerprint_of(scene, camera_, parameters, generator());
         manifest_.image = image_;
         manifest_.light_basis = light_basis(parameters);
         manifest_.stating_rows = kStatingRows;
         manifest_.choosing_rows = kChoosingRows;
-        manifest_.camera = record_of(camera_);
+        manifest_.camera = record_of(camera_, scene.frame);
         manifest_.bake = json_from_parameters(parameters);
         manifest_.bake["scene"] = scene.name;
         manifest_.bake["triangles"] = scene.triangle_count();

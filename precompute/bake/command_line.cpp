@@ -14,6 +14,8 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     using Kind = basis::LightBasis::Kind;
     const std::map<std::string, Kind> kinds{{"haar", Kind::haar},
                                             {"sh", Kind::spherical_harmonics}};
+    const std::map<std::string, scene::UpAxis> up_axes{{"y", scene::UpAxis::y},
+                                                       {"z", scene::UpAxis::z}};
     BakeParameters& p = arguments.parameters;
     auto* scene =
         app.add_option("scene", arguments.scene, "glTF 2.0, GLB, OBJ or PLY file to bake");
@@ -21,9 +23,18 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                    "Bake a scene made by code instead; `relume-bake list` names them")
         ->excludes(scene);
     app.add_option("-o,--output", arguments.output, "Transport directory, NAME.relume");
+    app.add_option("--camera", arguments.camera,
+                   "Camera of the scene file: its name, node path or index [the first; in a "
+                   "file without cameras, one that frames the scene]");
+    app.add_flag("--list-cameras", arguments.list_cameras, "Name the scene's cameras and end");
+    app.add_option("--preview", arguments.preview,
+                   "Write a PNG of what the image will show, and end without baking");
+    app.add_option("--up-axis", p.up_axis,
+                   "What is up in the scene file: y or z; z turns scene and camera [y]")
+        ->transform(CLI::CheckedTransformer(up_axes).description(""));
     app.add_option("--eye", arguments.eye, "Where the camera stands: X,Y,Z");
     app.add_option("--look-at", arguments.look_at, "What it looks at: X,Y,Z");
-    app.add_option("--up", arguments.up, "What is up for it: X,Y,Z [0,1,0]");
+    app.add_option("--up", arguments.up, "What is up for it: X,Y,Z");
     app.add_option("--fov", arguments.fov_degrees, "Vertical field of view in degrees [40]");
     app.add_option("--size", arguments.size, "Image size in pixels: WxH [512x512]");
     app.add_option("--light-resolution", p.face_resolution,

@@ -19,7 +19,10 @@ struct Arguments {
     std::string eye;
     std::string look_at;
     std::string up;
-    std::optional<float> fov_degrees;
+    std::optional<double> fov_degrees;
+    std::string camera;
+    bool list_cameras = false;
+    std::string preview;
     BakeParameters parameters;
     // info, verify, relight
     std::string directory;

@@ -4,6 +4,7 @@
 #include "base/text/near_files.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/error.h"
+#include "precompute/bake/framing.h"
 #include "precompute/bake/image_file.h"
 #include "precompute/bake/inspect.h"
 #include "precompute/bake/output_directory.h"
@@ -61,59 +62,74 @@ std::vector<T> parse_list(const char* option,
     return values;
 }
 
-Imath::V3f parse_point(const char* option, const std::string& text) {
-    const auto values = parse_list<float>(option, text, ',', 3, "three numbers X,Y,Z");
-    return {values[0], values[1], values[2]};
+std::optional<Imath::V3d> parse_point(const char* option, const std::string& text) {
+    if (text.empty()) {
+        return std::nullopt;
+    }
+    const auto values = parse_list<double>(option, text, ',', 3, "three numbers X,Y,Z");
+    return Imath::V3d(values[0], values[1], values[2]);
 }
 
-// The camera of the command line, over the one of the scene where there is one.
-std::optional<scene::CameraPlacement> camera_of(
-    const Arguments& arguments, const std::optional<scene::CameraPlacement>& base) {
-    if (arguments.eye.empty() && arguments.look_at.empty() && arguments.up.empty() &&
-        !arguments.fov_degrees) {
-        return base;
-    }
-    if (!base && (arguments.eye.empty() || arguments.look_at.empty())) {
-        throw program::UsageError("a camera given by hand needs both --eye and --look-at");
-    }
-    scene::CameraPlacement camera = base.value_or(scene::CameraPlacement{});
-    if (!arguments.eye.empty()) {
-        camera.eye = parse_point("--eye", arguments.eye);
-    }
-    if (!arguments.look_at.empty()) {
-        camera.look_at = parse_point("--look-at", arguments.look_at);
-    }
-    if (!arguments.up.empty()) {
-        camera.up = parse_point("--up", arguments.up);
-    }
-    camera.vertical_fov_degrees = arguments.fov_degrees.value_or(camera.vertical_fov_degrees);
-    return camera;
+scene::ImportOptions import_options(const Arguments& arguments,
+                                    const BakeParameters& parameters) {
+    scene::ImportOptions options;
+    options.camera = {.wanted = arguments.camera,
+                      .eye = parse_point("--eye", arguments.eye),
+                      .look_at = parse_point("--look-at", arguments.look_at),
+                      .up = parse_point("--up", arguments.up),
+                      .vertical_fov_degrees = arguments.fov_degrees};
+    options.aspect = static_cast<double>(parameters.width) / parameters.height;
+    options.up_axis = parameters.up_axis;
+    return options;
 }
 
-scene::Scene scene_of(const Arguments& arguments) {
+scene::Scene scene_of(const Arguments& arguments, const BakeParameters& parameters) {
+    const scene::ImportOptions options = import_options(arguments, parameters);
+    if (arguments.builtin.empty()) {
+        return scene::import_scene(arguments.scene, options);
+    }
+    if (parameters.up_axis != scene::UpAxis::y) {
+        throw program::UsageError(
+            "--up-axis is for scene files: in scenes made by code +Y is up");
+    }
+    scene::Scene scene = scene::build_builtin_scene(arguments.builtin);
+    scene.camera = scene::placed_as_asked(options.camera, scene.camera);
+    return scene;
+}
+
+int run_list_cameras(const Arguments& arguments) {
+    if (arguments.scene.empty()) {
+        throw program::UsageError(
+            "--list-cameras is for scene files: a scene made by code has one camera");
+    }
+    const auto cameras = scene::cameras_in(arguments.scene);
+    for (const std::string& line : scene::list_of(cameras)) {
+        fmt::print("{}\n", line);
+    }
+    if (cameras.empty()) {
+        fmt::print("no camera: one that frames the scene is used\n");
+    }
+    return 0;
+}
+
+void print_notes(const scene::ImportReport& report) {
+    for (const std::string& unused : report.unused) {
+        std::fprintf(stderr, "relume-bake: not used: %s\n", unused.c_str());
+    }
+    for (const std::string& repair : report.repairs) {
+        std::fprintf(stderr, "relume-bake: repaired: %s\n", repair.c_str());
+    }
+}
+
+int run_bake(const Arguments& arguments) {
     if (arguments.scene.empty() == arguments.builtin.empty()) {
         throw program::UsageError(
             "expected a scene file or --builtin NAME; see relume-bake --help");
     }
-    if (!arguments.builtin.empty()) {
-        scene::Scene scene = scene::build_builtin_scene(arguments.builtin);
-        scene.camera = *camera_of(arguments, scene.camera);
-        return scene;
+    if (arguments.list_cameras) {
+        return run_list_cameras(arguments);
     }
-    scene::ImportOptions options;
-    const bool whole_camera = !arguments.eye.empty() && !arguments.look_at.empty();
-    if (whole_camera) {
-        options.camera = camera_of(arguments, std::nullopt);
-    }
-    scene::Scene scene = scene::import_scene(arguments.scene, options);
-    if (!whole_camera) {
-        scene.camera = *camera_of(arguments, scene.camera);
-    }
-    return scene;
-}
-
-int run_bake(const Arguments& arguments) {
-    if (arguments.output.empty()) {
+    if (arguments.output.empty() && arguments.preview.empty()) {
         throw program::UsageError("expected -o NAME.relume; see relume-bake --help");
     }
     BakeParameters parameters = arguments.parameters;
@@ -124,18 +140,19 @@ int run_bake(const Arguments& arguments) {
         parameters.height = size[1];
     }
     check_parameters(parameters);
+    if (!arguments.preview.empty()) {
+        const scene::Scene scene = scene_of(arguments, parameters);
+        print_notes(scene.report);
+        write_preview(arguments.preview, scene, parameters);
+        return 0;
+    }
     const OutputDirectory output(transport_directory_from_option(arguments.output), parameters);
     if (output.path() != std::filesystem::path(arguments.output)) {
         std::fprintf(stderr, "relume-bake: -o %s is completed to %s\n",
                      arguments.output.c_str(), output.path().c_str());
     }
-    const scene::Scene scene = scene_of(arguments);
-    for (const std::string& unused : scene.report.unused) {
-        std::fprintf(stderr, "relume-bake: not used: %s\n", unused.c_str());
-    }
-    for (const std::string& repair : scene.report.repairs) {
-        std::fprintf(stderr, "relume-bake: repaired: %s\n", repair.c_str());
-    }
+    const scene::Scene scene = scene_of(arguments, parameters);
+    print_notes(scene.report);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
     BakeSummary summary;

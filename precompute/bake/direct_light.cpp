@@ -98,8 +98,7 @@ void DirectLight::light_surface(const PixelSurface& surface,
                                 Scratch& scratch) const {
     Reflection& reflection = scratch.reflection;
     reflect_light(texels_, surface.point, reflection);
-    const Imath::V3f origin =
-        caster_.offset_origin(surface.point.position, surface.point.geometric_normal);
+    const Imath::V3f origin = offset_origin(surface.point);
     std::vector<float>& open = scratch.open;
     if (reflection.is_diffuse) {
         visibility_.compute(origin, shift, reflection.grey, open, scratch.visibility);

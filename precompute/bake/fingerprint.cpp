@@ -27,6 +27,7 @@ class Hasher {
         XXH3_64bits_update(state_.get(), text.data(), text.size());
     }
     void add(std::uint64_t value) { XXH3_64bits_update(state_.get(), &value, sizeof(value)); }
+    void add(double value) { XXH3_64bits_update(state_.get(), &value, sizeof(value)); }
     void add(float value) { XXH3_64bits_update(state_.get(), &value, sizeof(value)); }
     void add(const Imath::V3f& v) {
         add(v.x);
@@ -99,6 +100,10 @@ std::uint64_t fingerprint_of(const scene::Scene& scene,
     hasher.add(generator);
     hasher.add(std::string_view(json_from_parameters(parameters).dump()));
     hasher.add(camera.eye());
+    for (const double value :
+         {scene.frame.origin.x, scene.frame.origin.y, scene.frame.origin.z, scene.frame.unit}) {
+        hasher.add(value);
+    }
     hasher.add(camera.right());
     hasher.add(camera.up());
     hasher.add(camera.forward());

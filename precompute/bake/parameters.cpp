@@ -63,7 +63,10 @@ nlohmann::json json_from_parameters(const BakeParameters& p) {
                           {"pool_radius", p.pool_radius},
                           {"shrinkage", p.shrinkage},
                           {"seed", p.seed}};
-    // What Haar bakes are hashed by has no such keys.
+    // What other bakes are hashed by has no such keys.
+    if (p.up_axis == scene::UpAxis::z) {
+        object["up_axis"] = "z";
+    }
     if (p.basis == basis::LightBasis::Kind::spherical_harmonics) {
         object["basis"] = transport::name_of(p.basis);
         object["order"] = p.order;

@@ -1,6 +1,7 @@
 // What a bake is asked for, beside the scene.
 #pragma once
 
+#include "precompute/scene/up_axis.h"
 #include "protocol/basis/light_basis.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -24,6 +25,7 @@ struct BakeParameters {
     float shrinkage = 2.0F;           // standard errors a coefficient must stand clear of
     std::uint32_t threads = 0;        // 0: one per core; changes no result
     std::uint64_t seed = 0;
+    scene::UpAxis up_axis = scene::UpAxis::y;  // of the scene's file
 };
 
 // Throws program::UsageError naming the first parameter out of range.

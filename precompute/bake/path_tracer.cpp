@@ -79,7 +79,7 @@ void PathTracer::trace_path(const PixelSurface& surface,
             }
         }
         weight *= event == 0 ? demodulated(point.bsdf, sample.weight) : sample.weight;
-        const Imath::V3f origin = caster_.offset_origin(point.position, point.geometric_normal);
+        const Imath::V3f origin = offset_origin(point);
         const auto hit = caster_.closest_hit(origin, sample.wi);
         ++paths.rays;
         if (!hit) {

@@ -1,7 +1,6 @@
 #include "precompute/bake/ray_caster.h"
 
 #include "precompute/bake/error.h"
-#include "precompute/scene/surface_point.h"
 #include "protocol/basis/cpu_clones.h"
 
 #include <fmt/format.h>
@@ -75,13 +74,6 @@ RayCaster::RayCaster(const scene::Scene& scene)
         throw BakeError(fmt::format("Embree cannot build {} triangles: error {}",
                                     scene.triangle_count(), static_cast<int>(error)));
     }
-    // A few units in the last place of the largest coordinate there is.
-    const Imath::Box3f bounds = scene.bounds();
-    float largest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        largest = std::max({largest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
-    }
-    offset_ = largest * 0x1p-19F;
 }
 
 void RayCaster::attach(const scene::Mesh& mesh, std::uint32_t index) {
@@ -170,9 +162,8 @@ std::uint32_t RayCaster::unoccluded(RayPacket& packet, std::uint32_t wanted) con
     return positive_lanes(packet.rays_.tfar) & wanted;
 }
 
-Imath::V3f RayCaster::offset_origin(const Imath::V3f& position,
-                                    const Imath::V3f& normal) const {
-    return position + offset_ * normal;
+Imath::V3f offset_origin(const scene::SurfacePoint& point) {
+    return point.position + point.reach * 0x1p-19F * point.geometric_normal;
 }
 
 }  // namespace relume::bake

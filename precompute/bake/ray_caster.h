@@ -3,6 +3,7 @@
 #pragma once
 
 #include "precompute/scene/scene.h"
+#include "precompute/scene/surface_point.h"
 
 #include <Imath/ImathVec.h>
 #include <embree3/rtcore.h>
@@ -42,6 +43,11 @@ class RayPacket {
     RTCIntersectContext context_;
 };
 
+// A point just off the surface on the viewer's side, so that a ray from it does not meet the
+// surface it left: by a few units in the last place of the coordinates that it was computed
+// from, so that it is right for any size of scene and of triangle.
+[[nodiscard]] Imath::V3f offset_origin(const scene::SurfacePoint& point);
+
 // Holes of alpha-masked materials let rays through. Immutable and thread-safe; keeps a
 // reference to the scene.
 class RayCaster {
@@ -58,11 +64,6 @@ class RayCaster {
     // Bit i is set when bit i of `wanted` is set and nothing lies in direction i. Fastest when
     // the directions are close to each other.
     [[nodiscard]] std::uint32_t unoccluded(RayPacket& packet, std::uint32_t wanted) const;
-
-    // A point just off the surface, so that a ray from it does not meet the surface it left.
-    // `normal` points to the ray's side.
-    [[nodiscard]] Imath::V3f offset_origin(const Imath::V3f& position,
-                                           const Imath::V3f& normal) const;
 
   private:
     struct MeshContext {
@@ -81,7 +82,6 @@ class RayCaster {
     std::vector<MeshContext> contexts_;
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
     std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> accelerator_;
-    float offset_ = 0;
 };
 
 }  // namespace relume::bake

@@ -98,7 +98,7 @@ ViewImages view_images(const RayCaster& caster,
             const std::size_t i = std::size_t{y} * parameters.width + x;
             view.coverage[i] = pixel.coverage;
             view.albedo[i] = pixel.albedo;
-            view.depth[i] = pixel.depth;
+            view.depth[i] = pixel.depth * static_cast<float>(caster.scene().frame.unit);
         }
     });
     return view;

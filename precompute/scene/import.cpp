@@ -50,43 +50,34 @@ void check_file(const fs::path& path, std::uint64_t max_bytes) {
                                      path.string(), bytes, max_bytes));
 }
 
-// The camera asked for, else the first of the file; the others are named in the report.
-CameraPlacement choose_camera(const fs::path& path,
-                              const ImportOptions& options,
-                              ImportedScene& imported) {
-    if (options.camera)
-        return *options.camera;
-    if (imported.cameras.empty())
-        throw SceneError(SceneFault::no_camera,
-                         fmt::format("scene '{}' holds no perspective camera; expected one, or "
-                                     "eye, look-at and field of view as options",
-                                     path.string()));
-    const NamedCamera& first = imported.cameras.front();
-    for (const NamedCamera& camera : imported.cameras) {
-        if (camera.index != first.index)
-            imported.scene.report.unused.push_back(
-                fmt::format("camera '{}': the first, '{}', is used", camera.name, first.name));
-    }
-    return placement_of(first);
+ImportedScene read_scene(const fs::path& path, const ImportOptions& options) {
+    const FileFormat format = format_of(path);
+    check_file(path, options.max_file_bytes);
+    ImportedScene imported = format == FileFormat::gltf
+                                 ? gltf::import_gltf(path, options)
+                                 : import_with_assimp(path, format, options);
+    check_positions(imported);
+    return imported;
 }
 
 }  // namespace
 
 Scene import_scene(const fs::path& path, const ImportOptions& options) {
-    const FileFormat format = format_of(path);
-    check_file(path, options.max_file_bytes);
     try {
-        ImportedScene imported = format == FileFormat::gltf
-                                     ? gltf::import_gltf(path, options)
-                                     : import_with_assimp(path, format, options);
-        imported.scene.camera = choose_camera(path, options, imported);
-        Scene scene = scene_in_float(std::move(imported));
+        ImportedScene imported = read_scene(path, options);
+        const NamedCamera camera =
+            choose_camera(options.camera, options.aspect, options.up_axis, imported);
+        Scene scene = scene_in_float(std::move(imported), camera, options.up_axis);
         finish_scene(scene);
         return scene;
     } catch (const std::bad_alloc&) {
         throw SceneError(SceneFault::too_large,
                          fmt::format("scene '{}' does not fit into memory", path.string()));
     }
+}
+
+std::vector<NamedCamera> cameras_in(const fs::path& path, const ImportOptions& options) {
+    return read_scene(path, options).cameras;
 }
 
 }  // namespace relume::scene

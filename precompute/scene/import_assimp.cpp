@@ -148,9 +148,8 @@ const aiScene& read_file(Assimp::Importer& importer,
     if (lacks_normals(polygons))
         report.repairs.emplace_back("missing normals made, smooth up to 60 degree edges");
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseDegrees);
-    return require(importer.ApplyPostProcessing(aiProcess_Triangulate |
-                                                aiProcess_JoinIdenticalVertices |
-                                                aiProcess_GenSmoothNormals));
+    return require(importer.ApplyPostProcessing(
+        aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenSmoothNormals));
 }
 
 }  // namespace

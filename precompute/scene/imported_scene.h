@@ -2,6 +2,7 @@
 #pragma once
 
 #include "precompute/scene/scene.h"
+#include "precompute/scene/up_axis.h"
 
 #include <Imath/ImathVec.h>
 
@@ -29,11 +30,20 @@ struct ImportedScene {
     Scene scene;  // all but the camera and the positions of the meshes, which are empty
     std::vector<std::vector<Imath::V3d>> positions{};  // world; one list for each mesh
     std::vector<NamedCamera> cameras{};                // in the file's order; may be empty
+    // Distance in the world between neighbouring numbers of the file where its positions are
+    // largest; 0 where it is finer than a double's.
+    double position_step = 0;
 };
 
-[[nodiscard]] CameraPlacement placement_of(const NamedCamera& camera);
+// Throws SceneError (non_finite_vertex).
+void check_positions(const ImportedScene& imported);
 
-// World positions become the floats of the bake: here and nowhere else.
-[[nodiscard]] Scene scene_in_float(ImportedScene imported);
+// World positions become the floats of the bake, here and nowhere else, in a frame of the
+// scene's own (WorldFrame) with +Y up and `camera` at its origin: so the picture is the same
+// wherever the scene stands and however large it is. Where the file's own numbers are too
+// coarse for the scene they describe, the report says so.
+[[nodiscard]] Scene scene_in_float(ImportedScene imported,
+                                   const NamedCamera& camera,
+                                   UpAxis up_axis);
 
 }  // namespace relume::scene

@@ -155,7 +155,7 @@ Imath::Box3f Scene::bounds() const {
     Imath::Box3f box;
     for (const Mesh& mesh : meshes) {
         for (const Imath::V3f& position : mesh.positions)
-            box.extendBy(position);
+            box.extendBy(Imath::V3f(frame.world_from_position(position)));
     }
     return box;
 }

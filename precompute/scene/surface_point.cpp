@@ -126,6 +126,10 @@ SurfacePoint surface_point(const Scene& scene,
     const Imath::V3f to_viewer = -ray_direction.normalized();
     SurfacePoint point;
     point.position = interpolated(mesh.positions, triangle, barycentric);
+    for (const std::uint32_t index : triangle) {
+        const Imath::V3f& p = mesh.positions[index];
+        point.reach = std::max({point.reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
     const Imath::V3f face_normal =
         (mesh.positions[triangle[1]] - p0).cross(mesh.positions[triangle[2]] - p0).normalized();
     point.geometric_normal = face_normal.dot(to_viewer) < 0 ? -face_normal : face_normal;

@@ -25,8 +25,9 @@ struct Frame {
 struct SurfacePoint {
     Imath::V3f position{0, 0, 0};
     Imath::V3f geometric_normal{0, 0, 1};  // unit, on the viewer's side
-    Frame shading;                         // its normal on the viewer's side too
-    Imath::V3f wo{0, 0, 1};                // to the viewer, shading frame, wo.z > 0
+    float reach = 0;  // largest coordinate of its triangle: what rounding moves the point by
+    Frame shading;    // its normal on the viewer's side too
+    Imath::V3f wo{0, 0, 1};  // to the viewer, shading frame, wo.z > 0
     Bsdf bsdf = Bsdf::lambert({0, 0, 0});
 
     // Light from below the geometric surface contributes nothing, whatever the interpolated

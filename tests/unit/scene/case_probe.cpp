@@ -16,15 +16,22 @@ scene::Scene import_case(const std::string& name) {
     return scene::import_scene(case_path(name));
 }
 
+Imath::V3f world_position(const scene::Scene& scene, std::size_t mesh, std::size_t vertex) {
+    return Imath::V3f(scene.frame.world_from_position(scene.meshes[mesh].positions[vertex]));
+}
+
 std::optional<scene::SurfacePoint> surface_at(const scene::Scene& scene, float x, float y) {
     std::optional<scene::SurfacePoint> nearest;
     float highest = -std::numeric_limits<float>::infinity();
     for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
         const scene::Mesh& mesh = scene.meshes[m];
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            const Imath::V3f& a = mesh.positions[mesh.triangles[t][0]];
-            const Imath::V3f ab = mesh.positions[mesh.triangles[t][1]] - a;
-            const Imath::V3f ac = mesh.positions[mesh.triangles[t][2]] - a;
+            const auto corner = [&](std::size_t k) {
+                return world_position(scene, m, mesh.triangles[t][k]);
+            };
+            const Imath::V3f a = corner(0);
+            const Imath::V3f ab = corner(1) - a;
+            const Imath::V3f ac = corner(2) - a;
             const float area = ab.x * ac.y - ab.y * ac.x;
             const float u = ((x - a.x) * ac.y - (y - a.y) * ac.x) / area;
             const float v = (ab.x * (y - a.y) - ab.y * (x - a.x)) / area;

@@ -15,6 +15,11 @@ namespace relume::test {
 [[nodiscard]] std::filesystem::path case_path(const std::string& name);
 [[nodiscard]] scene::Scene import_case(const std::string& name);
 
+// In the world of the file.
+[[nodiscard]] Imath::V3f world_position(const scene::Scene& scene,
+                                        std::size_t mesh,
+                                        std::size_t vertex);
+
 // The nearest surface that a ray along −Z through (x, y) meets from far out; nothing where it
 // meets none. Passes holes.
 [[nodiscard]] std::optional<scene::SurfacePoint> surface_at(const scene::Scene& scene,

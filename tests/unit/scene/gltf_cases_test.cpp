@@ -91,7 +91,7 @@ TEST(GltfCases, CamerasBelongToNodes) {
                              "twoscenes", "unused_first", "wide"}) {
         SCOPED_TRACE(file);
         const Scene scene = import_case("05-camera-names/" + std::string(file) + ".gltf");
-        expect_near(scene.camera.eye, {0, 0, 5});
+        expect_near(Imath::V3f(scene.frame.origin), {0, 0, 5});
         const Camera camera(scene.camera, 10, 10);
         expect_near(camera.forward(), {0, 0, -1});
         EXPECT_NEAR(scene.camera.vertical_fov_degrees, 40.0F, 1e-3F);

@@ -81,14 +81,14 @@ TEST_F(GltfGeometry, IntegersAreWhatTheirTypeSays) {
     builder.document["extensionsRequired"] = {"KHR_mesh_quantization"};
     const Scene scene = import(builder);
     const Mesh& mesh = scene.meshes[0];
-    expect_near(mesh.positions[0], {-1, 0, 0});
-    expect_near(mesh.positions[1], {1, 0, 0});
-    expect_near(mesh.positions[2], {0, 16384 / 32767.0F, -1});
+    expect_near(test::world_position(scene, 0, 0), {-1, 0, 0});
+    expect_near(test::world_position(scene, 0, 1), {1, 0, 0});
+    expect_near(test::world_position(scene, 0, 2), {0, 16384 / 32767.0F, -1});
     expect_near(mesh.normals[0], {0, 0, 1});
     expect_near(mesh.colours[0], {1, 0.2F, 0});
     // The same numbers, not normalized.
     builder.document["accessors"][accessor]["normalized"] = false;
-    expect_near(import(builder).meshes[0].positions[1], {32767, 0, 0});
+    expect_near(test::world_position(import(builder), 0, 1), {32767, 0, 0}, 1e-2F);
 }
 
 TEST_F(GltfGeometry, SparseElementsReplaceOthersAndZeros) {
@@ -186,8 +186,8 @@ TEST_F(GltfGeometry, MatricesAndQuaternionsAgree) {
     const Scene a = import(turned);
     const Scene b = import(quaternion);
     for (std::size_t i = 0; i < 3; ++i)
-        expect_near(a.meshes[0].positions[i], b.meshes[0].positions[i], 1e-5F);
-    expect_near(a.meshes[0].positions[1],
+        expect_near(test::world_position(a, 0, i), test::world_position(b, 0, i), 1e-5F);
+    expect_near(test::world_position(a, 0, 1),
                 {static_cast<float>(4 + c), static_cast<float>(5 + s), 6}, 1e-5F);
 }
 

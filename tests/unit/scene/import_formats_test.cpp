@@ -17,7 +17,7 @@ class ImportFormats : public testing::Test {
   protected:
     Scene import(const std::string& file) {
         ImportOptions options;
-        options.camera = CameraPlacement{.eye = {0, 0, 4}, .look_at = {0, 0, 0}};
+        options.camera = {.eye = Imath::V3d(0, 0, 4), .look_at = Imath::V3d(0, 0, 0)};
         return import_scene(scratch_.path() / file, options);
     }
     void write(const std::string& file, const std::string& text) {

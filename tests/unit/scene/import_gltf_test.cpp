@@ -54,7 +54,8 @@ TEST_F(ImportGltf, TriangleMaterialAndCamera) {
     EXPECT_FLOAT_EQ(material.roughness, 0.5F);
     EXPECT_NEAR(scene.camera.vertical_fov_degrees, 40.0F, 1e-3F);
     const Camera camera(scene.camera, 30, 20);
-    expect_near(camera.eye(), {0, 0, 5});
+    expect_near(camera.eye(), {0, 0, 0});
+    expect_near(Imath::V3f(scene.frame.origin), {0, 0, 5});
     expect_near(camera.forward(), {0, 0, -1});
     expect_near(camera.up(), {0, 1, 0});
     EXPECT_TRUE(scene.report.unused.empty());
@@ -80,7 +81,7 @@ TEST_F(ImportGltf, CameraWithoutAspectAndInsideMovedNodes) {
     const Scene scene = import(document);
     EXPECT_NEAR(scene.camera.vertical_fov_degrees, 40.0F, 1e-3F);
     const Camera camera(scene.camera, 10, 10);
-    expect_near(camera.eye(), {10, 0, 0});
+    expect_near(Imath::V3f(scene.frame.origin), {10, 0, 0});
     expect_near(camera.forward(), {-1, 0, 0});
 }
 
@@ -199,16 +200,16 @@ TEST_F(ImportGltf, SeveralCamerasGiveTheFirst) {
     document["nodes"].push_back({{"name", "other"}, {"camera", 1}, {"translation", {9, 9, 9}}});
     document["scenes"][0]["nodes"] = {0, 1, 2};
     const Scene scene = import(document);
-    expect_near(scene.camera.eye, {0, 0, 5});
-    EXPECT_TRUE(mentions(scene.report.unused, "camera 'other'"));
+    expect_near(Imath::V3f(scene.frame.origin), {0, 0, 5});
+    EXPECT_TRUE(mentions(scene.report.unused, "1 further cameras"));
 }
 
 TEST_F(ImportGltf, CameraOfTheCallerOverridesTheFile) {
     test::write_json(scratch_.path() / "scene.gltf", test::gltf_triangle());
     ImportOptions options;
-    options.camera = CameraPlacement{.name = "mine", .eye = {7, 7, 7}, .look_at = {0, 0, 0}};
+    options.camera = {.eye = Imath::V3d(7, 7, 7), .look_at = Imath::V3d(0, 0, 0)};
     const Scene scene = import_scene(scratch_.path() / "scene.gltf", options);
-    EXPECT_EQ(scene.camera.name, "mine");
+    expect_near(Imath::V3f(scene.frame.origin), {7, 7, 7});
 }
 
 TEST_F(ImportGltf, BinaryFile) {

@@ -1,0 +1,24 @@
+// What an image will show, before it is baked.
+#pragma once
+
+#include "precompute/bake/parameters.h"
+#include "precompute/bake/ray_caster.h"
+#include "precompute/scene/camera.h"
+
+#include <filesystem>
+
+namespace relume::bake {
+
+// Throws BakeError, with the bounds of the scene and the camera, where no pixel sees a surface.
+void check_framing(const RayCaster& caster,
+                   const scene::Camera& camera,
+                   const BakeParameters& parameters);
+
+// A PNG of the scene as the camera sees it, lit from the viewer's side, without shadows: a
+// picture of the framing, of the size of the image. Throws BakeError, also where no pixel sees
+// a surface.
+void write_preview(const std::filesystem::path& path,
+                   const scene::Scene& scene,
+                   const BakeParameters& parameters);
+
+}  // namespace relume::bake
