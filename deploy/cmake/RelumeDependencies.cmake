@@ -16,7 +16,6 @@ get_target_property(RELUME_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCL
 list(FILTER RELUME_OIIO_INCLUDES EXCLUDE REGEX "/opencv4$")
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES "${RELUME_OIIO_INCLUDES}")
-find_package(assimp REQUIRED)
 find_package(TinyGLTF REQUIRED)             # its header; see precompute/scene/gltf/tinygltf.cpp
 find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
@@ -24,6 +23,7 @@ find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(hwy REQUIRED)
 find_package(prometheus-cpp REQUIRED COMPONENTS core)
+pkg_check_modules(glu REQUIRED IMPORTED_TARGET glu)  # its tessellator of polygons
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)

@@ -74,9 +74,10 @@ void add(Hasher& hasher, const scene::Material& material) {
         hasher.add(value);
     }
     hasher.add(material.alpha_cutoff.value_or(-1));
-    for (const auto& use : {material.base_texture, material.surface_texture,
-                            material.gloss_texture, material.dielectric_texture,
-                            material.dielectric_colour_texture, material.normal_texture}) {
+    for (const auto& use :
+         {material.base_texture, material.specular_texture, material.exponent_texture,
+          material.surface_texture, material.gloss_texture, material.dielectric_texture,
+          material.dielectric_colour_texture, material.normal_texture}) {
         hasher.add(use);
     }
 }

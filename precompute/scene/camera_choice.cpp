@@ -83,9 +83,12 @@ Imath::Box3d bounds_of(const ImportedScene& imported) {
 
 // From the front, the right and above, at a distance from which the sphere around the scene
 // just fits into the image.
-NamedCamera camera_that_frames(const ImportedScene& imported, double aspect, UpAxis up_axis) {
+NamedCamera camera_that_frames(const ImportedScene& imported,
+                               double fov_degrees,
+                               double aspect,
+                               UpAxis up_axis) {
     const Imath::Box3d box = bounds_of(imported);
-    NamedCamera camera{.name = "framing the scene"};
+    NamedCamera camera{.name = "framing the scene", .vertical_fov_degrees = fov_degrees};
     camera.forward = file_axes_from(up_axis, unit(Imath::V3d(-0.5, -0.4, -1)));
     camera.up = file_axes_from(up_axis, Imath::V3d(0, 1, 0));
     if (box.isEmpty())
@@ -123,16 +126,19 @@ NamedCamera choose_camera(const CameraRequest& request,
     NamedCamera chosen;
     const bool is_framed = request.wanted.empty() && imported.cameras.empty();
     if (is_framed) {
-        chosen = camera_that_frames(imported, aspect, up_axis);
+        const double fov = request.vertical_fov_degrees.value_or(chosen.vertical_fov_degrees);
+        chosen = camera_that_frames(imported, fov, aspect, up_axis);
     } else {
         chosen = request.wanted.empty() ? imported.cameras.front()
                                         : camera_called(request.wanted, imported);
     }
-    if (imported.cameras.size() > 1 && request.wanted.empty() && !request.eye) {
-        report.unused.push_back(fmt::format(
-            "{} further cameras: the first, '{}', is used; --camera chooses, --list-cameras "
-            "names them",
-            imported.cameras.size() - 1, shown_text(chosen.name)));
+    if (request.wanted.empty() && !request.eye) {
+        for (const NamedCamera& camera : imported.cameras) {
+            if (camera.index != chosen.index)
+                report.unused.push_back(
+                    fmt::format("camera '{}': the first, '{}', is used; --camera chooses",
+                                shown_text(camera.name), shown_text(chosen.name)));
+        }
     }
     const Imath::V3d centre =
         is_framed && !bounds_of(imported).isEmpty() ? bounds_of(imported).center() : chosen.eye;
@@ -147,6 +153,10 @@ NamedCamera choose_camera(const CameraRequest& request,
         chosen.up = unit(*request.up);
     chosen.vertical_fov_degrees =
         request.vertical_fov_degrees.value_or(chosen.vertical_fov_degrees);
+    if (!std::isfinite(chosen.eye.length()) || !std::isfinite(chosen.up.length()))
+        throw SceneError(SceneFault::bad_camera,
+                         fmt::format("camera '{}': expected finite numbers for eye and up",
+                                     shown_text(chosen.name)));
     if (is_framed && !(request.eye && request.look_at)) {
         const Imath::V3d look_at = request.look_at.value_or(centre);
         report.repairs.push_back(

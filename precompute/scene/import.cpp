@@ -3,8 +3,10 @@
 #include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/gltf/import_gltf.h"
-#include "precompute/scene/import_assimp.h"
 #include "precompute/scene/imported_scene.h"
+#include "precompute/scene/obj/import_obj.h"
+#include "precompute/scene/ply/import_ply.h"
+#include "precompute/scene/shown_text.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,8 @@ namespace relume::scene {
 namespace {
 
 namespace fs = std::filesystem;
+
+enum class FileFormat : std::uint8_t { gltf, obj, ply };
 
 FileFormat format_of(const fs::path& path) {
     std::string extension = path.extension().string();
@@ -50,12 +54,22 @@ void check_file(const fs::path& path, std::uint64_t max_bytes) {
                                      path.string(), bytes, max_bytes));
 }
 
+ImportedScene read_by_format(const fs::path& path, const ImportOptions& options) {
+    switch (format_of(path)) {
+        case FileFormat::obj:
+            return obj::import_obj(path, options);
+        case FileFormat::ply:
+            return ply::import_ply(path, options);
+        default:
+            return gltf::import_gltf(path, options);
+    }
+}
+
 ImportedScene read_scene(const fs::path& path, const ImportOptions& options) {
-    const FileFormat format = format_of(path);
+    (void)format_of(path);
     check_file(path, options.max_file_bytes);
-    ImportedScene imported = format == FileFormat::gltf
-                                 ? gltf::import_gltf(path, options)
-                                 : import_with_assimp(path, format, options);
+    ImportedScene imported = read_by_format(path, options);
+    imported.scene.name = shown_text(imported.scene.name);
     check_positions(imported);
     return imported;
 }

@@ -50,25 +50,4 @@ std::optional<fs::path> path_inside(const fs::path& folder, const std::string& r
     return resolved(percent_decoded(reference));
 }
 
-bool FolderIo::is_allowed(const char* file) const {
-    std::error_code error;
-    if (!is_inside(folder_, file) || !fs::is_regular_file(file, error))
-        return false;
-    const auto bytes = fs::file_size(file, error);
-    return !error && bytes <= max_file_bytes_;
-}
-
-bool FolderIo::Exists(const char* file) const {
-    return is_allowed(file);
-}
-
-Assimp::IOStream* FolderIo::Open(const char* file, const char* mode) {
-    const bool reads_only =
-        std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-    if (reads_only && is_allowed(file))
-        return DefaultIOSystem::Open(file, mode);
-    refused_.insert(file);
-    return nullptr;
-}
-
 }  // namespace relume::scene

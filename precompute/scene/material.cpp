@@ -24,7 +24,9 @@ Bsdf Material::bsdf_at(std::span<const Texture> textures,
         case BsdfModel::lambert:
             return Bsdf::lambert(base);
         case BsdfModel::phong:
-            return Bsdf::phong(base, specular, exponent);
+            return Bsdf::phong(
+                base, specular_texture ? specular * rgb(texel(*specular_texture)) : specular,
+                exponent_texture ? exponent * texel(*exponent_texture).x : exponent);
         case BsdfModel::ggx:
             break;
     }

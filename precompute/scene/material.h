@@ -55,6 +55,8 @@ struct Material {
     float opacity = 1;                    // base alpha, used only with alpha_cutoff
     std::optional<float> alpha_cutoff{};  // glTF alphaMode MASK: holes where alpha < cutoff
     std::optional<TextureUse> base_texture{};        // RGB × base_colour; alpha × opacity
+    std::optional<TextureUse> specular_texture{};    // Phong: specular × RGB
+    std::optional<TextureUse> exponent_texture{};    // Phong: exponent × R
     std::optional<TextureUse> surface_texture{};     // glTF: roughness × G, metallic × B
     std::optional<TextureUse> gloss_texture{};       // glossiness, 1 − roughness, × alpha
     std::optional<TextureUse> dielectric_texture{};  // dielectric_f90 × alpha

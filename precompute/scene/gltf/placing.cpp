@@ -1,6 +1,9 @@
 #include "precompute/scene/gltf/placing.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace relume::scene::gltf {
@@ -14,8 +17,15 @@ void place(PrimitiveShape shape,
     const auto map_of = [&](std::size_t vertex) -> const Affine& {
         return to_world[to_world.size() == 1 ? 0 : vertex];
     };
-    for (std::size_t i = 0; i < shape.positions.size(); ++i)
-        shape.positions[i] = point_through(map_of(i), shape.positions[i]);
+    for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+        const Imath::V3d& p = shape.positions[i];
+        const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        // The file's numbers are floats; those of a node are doubles.
+        imported.position_step =
+            std::max(imported.position_step, largest * std::numeric_limits<float>::epsilon() *
+                                                 std::cbrt(std::abs(determinant(map_of(i)))));
+        shape.positions[i] = point_through(map_of(i), p);
+    }
     for (std::size_t i = 0; i < mesh.normals.size(); ++i)
         mesh.normals[i] =
             Imath::V3f(normal_through(map_of(i), Imath::V3d(mesh.normals[i])).normalized());

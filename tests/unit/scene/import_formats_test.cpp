@@ -3,6 +3,7 @@
 #include "precompute/scene/srgb.h"
 #include "precompute/scene/surface_point.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/unit/scene/case_probe.h"
 #include "tests/unit/scene/gltf_file.h"
 
 #include <gtest/gtest.h>
@@ -120,6 +121,70 @@ TEST_F(ImportFormats, CreasesStaySharpWhereNormalsAreMissing) {
             EXPECT_NEAR(along_axis, 1.0F, 1e-5F);
         }
     }
+}
+
+// Five points joined each to the next but one: the middle is crossed twice, and so outside.
+TEST_F(ImportFormats, FacesThatCrossThemselvesAreFilledEvenOdd) {
+    write("pentagram.obj",
+          "v 0 1 0 1 0 0\nv 0.588 -0.809 0 1 0 0\nv -0.951 0.309 0 1 0 0\n"
+          "v 0.951 0.309 0 1 0 0\nv -0.588 -0.809 0 1 0 0\nvt 0 0\nf 1/1 2/1 3/1 4/1 5/1\n");
+    const Scene star = import("pentagram.obj");
+    EXPECT_FALSE(test::surface_at(star, 0.01F, 0.02F).has_value());
+    EXPECT_LT((test::colour_at(star, 0.01F, 0.8F) - Imath::V3f(1, 0, 0)).length(), 1e-5F);
+    EXPECT_TRUE(test::surface_at(star, 0.7F, 0.27F).has_value());
+    write("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+    const Scene bow = import("bow.obj");
+    EXPECT_TRUE(test::surface_at(bow, 0.1F, 0.5F).has_value());
+    EXPECT_TRUE(test::surface_at(bow, 0.9F, 0.5F).has_value());
+    EXPECT_FALSE(test::surface_at(bow, 0.5F, 0.1F).has_value());
+}
+
+TEST_F(ImportFormats, TexturesAreMovedAndClampedAsTheirOptionsSay) {
+    test::write_red_green(scratch_.path() / "rg.png");
+    const auto left_quarter = [&](const std::string& options) {
+        write("quad.obj", std::string(kQuad) + "usemtl painted\nf 1/1 2/2 3/3 4/4\n");
+        write("quad.mtl", "newmtl painted\nmap_Kd " + options + " rg.png\n");
+        return test::colour_at(import("quad.obj"), 0.25F, 0.5F);
+    };
+    const Imath::V3f red(1, 0, 0);
+    const Imath::V3f green(0, 1, 0);
+    EXPECT_LT((left_quarter("") - red).length(), 1e-3F);
+    EXPECT_LT((left_quarter("-o 0.5 0 0") - green).length(), 1e-3F);
+    EXPECT_LT((left_quarter("-s 3 1 1") - green).length(), 1e-3F);
+    EXPECT_LT((left_quarter("-o 1.0") - red).length(), 1e-3F);
+    EXPECT_LT((left_quarter("-clamp on -o 1.0") - green).length(), 1e-3F);
+}
+
+// Heights that rise to the right lean the normal to the left.
+TEST_F(ImportFormats, BumpMapsAreHeights) {
+    test::write_red_green(scratch_.path() / "rg.png");
+    for (const char* keyword : {"bump", "map_Bump", "map_bump"}) {
+        write("quad.obj", std::string(kQuad) + "usemtl rough\nf 1/1 2/2 3/3 4/4\n");
+        write("quad.mtl", std::string("newmtl rough\nKd 0.5 0.5 0.5\n") + keyword +
+                              " -imfchan g -clamp on -bm 2 rg.png\n");
+        const Scene scene = import("quad.obj");
+        ASSERT_TRUE(scene.materials[0].normal_texture.has_value()) << keyword;
+    }
+}
+
+TEST_F(ImportFormats, TexturesOfShineAndMetal) {
+    test::write_red_green(scratch_.path() / "rg.png");
+    write("quad.obj", std::string(kQuad) + "usemtl m\nf 1/1 2/2 3/3 4/4\n");
+    write("quad.mtl",
+          "newmtl m\nKd 0.2 0.2 0.2\nKs 0.5 0.5 0.5\nNs 64\nmap_Ns -imfchan g "
+          "rg.png\nmap_Ks rg.png\n");
+    const Scene shiny = import("quad.obj");
+    const auto left = test::surface_at(shiny, 0.25F, 0.5F);
+    const auto right = test::surface_at(shiny, 0.75F, 0.5F);
+    ASSERT_TRUE(left && right);
+    EXPECT_EQ(left->bsdf.exponent(), 0.0F);
+    EXPECT_EQ(right->bsdf.exponent(), 64.0F);
+    EXPECT_NEAR(right->bsdf.specular_colour().y, 0.5F, 1e-3F);
+    EXPECT_NEAR(right->bsdf.specular_colour().x, 0, 1e-3F);
+    write("quad.mtl", "newmtl m\nKd 1 1 1\nmap_Pm -imfchan g rg.png\nPr 0.3\n");
+    const Scene metal = import("quad.obj");
+    EXPECT_GT(test::surface_at(metal, 0.25F, 0.5F)->bsdf.diffuse_colour().x, 0.5F);
+    EXPECT_LT(test::surface_at(metal, 0.75F, 0.5F)->bsdf.diffuse_colour().x, 0.01F);
 }
 
 constexpr const char* kPlyHead =
