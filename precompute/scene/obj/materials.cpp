@@ -93,8 +93,7 @@ TextureUse Materials::use(Texture texture, const MtlTexture& how, ObjMaterial& t
 void Materials::add_base(const MtlMaterial& source, ObjMaterial& target) {
     Material& material = target.material;
     const Texture* colour = picture(source, "kd", TextureContent::colour);
-    material.base_colour =
-        source.diffuse.value_or(Imath::V3f(colour != nullptr ? 1.0F : 0.5F));
+    material.base_colour = source.diffuse.value_or(Imath::V3f(colour != nullptr ? 1.0F : 0.5F));
     if (colour != nullptr && is_black(material.base_colour))
         repaired(source, "Kd is 0, which makes its texture black");
     const Texture* mask = picture(source, "d", TextureContent::data);
