@@ -15,15 +15,16 @@ struct SceneSummary {
     std::string kind = "image";  // of the transport, as its manifest names it
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::string basis = "haar";          // of the light, as the manifest names it
-    std::optional<std::uint32_t> order;  // of spherical harmonics
+    std::string basis = "haar";  // of the light, as the manifest names it
+    std::optional<std::uint32_t> order = std::nullopt;  // of spherical harmonics
     std::uint32_t face_resolution = 0;
     std::uint32_t columns = 0;
-    std::uint32_t channels = 0;        // stored, 1 or 3
-    std::uint64_t bytes = 0;           // of the transport directory's checked files
-    std::uint64_t memory_bytes = 0;    // that the server holds for it
-    std::optional<double> bake_error;  // relative L2 that the bake's sampling leaves
-    std::vector<std::string> edits;    // the sections of state that take edits
+    std::uint32_t channels = 0;      // stored, 1 or 3
+    std::uint64_t bytes = 0;         // of the transport directory's checked files
+    std::uint64_t memory_bytes = 0;  // that the server holds for it
+    std::optional<double> bake_error =
+        std::nullopt;                     // relative L2 that the bake's sampling leaves
+    std::vector<std::string> edits = {};  // the sections of state that take edits
 
     friend bool operator==(const SceneSummary&, const SceneSummary&) = default;
 };
