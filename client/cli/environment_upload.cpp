@@ -112,12 +112,8 @@ std::string environment_on_server(const Url& server,
     ask("projection", reading.projection);
     ask("centre", reading.centre);
     ask("layer", reading.layer);
-    const std::string request = "POST " + target;
-    if (!token.empty()) {
-        target += "&token=" + percent_encoded(token);
-    }
     const nlohmann::json answer = json_from_answer(
-        http_post(server, target, std::move(content), kUploadTimeout), request);
+        http_post(server, target, token, std::move(content), kUploadTimeout), "POST " + target);
     for (const auto& warning : answer.value("warnings", nlohmann::json::array())) {
         spdlog::warn("{}: {}", file_or_name,
                      warning.is_string() ? warning.get<std::string>() : warning.dump());

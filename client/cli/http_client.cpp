@@ -35,7 +35,7 @@ T finish(asio::io_context& io, std::future<T> result) {
 HttpAnswer exchange(const Url& server,
                     http::request<http::string_body> request,
                     std::chrono::seconds timeout) {
-    // Without the query: it may hold a token.
+    // Without the query, which may be long.
     const std::string target(request.target());
     const std::string what =
         fmt::format("{} http://{}{}", std::string(request.method_string()), server.authority(),
@@ -91,11 +91,15 @@ HttpAnswer http_get(const Url& server,
 
 HttpAnswer http_post(const Url& server,
                      const std::string& target,
+                     const std::string& token,
                      std::string body,
                      std::chrono::seconds timeout) {
     http::request<http::string_body> request{http::verb::post, server.prefix + target, kHttp11,
                                              std::move(body)};
     request.set(http::field::content_type, "application/octet-stream");
+    if (!token.empty()) {
+        request.set(http::field::authorization, "Bearer " + token);
+    }
     request.prepare_payload();
     return exchange(server, std::move(request), timeout);
 }

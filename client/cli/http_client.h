@@ -27,6 +27,7 @@ inline constexpr std::size_t kMaxAnswerBytes = std::size_t{16} << 20;
                                   std::chrono::seconds timeout = kHttpTimeout);
 [[nodiscard]] HttpAnswer http_post(const Url& server,
                                    const std::string& target,
+                                   const std::string& token,  // may be empty
                                    std::string body,
                                    std::chrono::seconds timeout = kHttpTimeout);
 

@@ -31,9 +31,6 @@ std::string target_of(const SessionOptions& options) {
     if (!options.scene.empty()) {
         target += "&scene=" + percent_encoded(options.scene);
     }
-    if (!options.token.empty()) {
-        target += "&token=" + percent_encoded(options.token);
-    }
     return target;
 }
 
@@ -118,6 +115,13 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
         // The TCP stream times the handshake: Beast's WebSocket timer goes on after a refused
         // one, and would keep the io_context busy to its end.
         tcp_stream.expires_after(options_.connect_timeout);
+        stream_.set_option(websocket::stream_base::decorator(
+            [token = options_.token](websocket::request_type& request) {
+                request.set(beast::http::field::sec_websocket_protocol, "relume.v1");
+                if (!token.empty()) {
+                    request.set(beast::http::field::authorization, "Bearer " + token);
+                }
+            }));
         stream_.async_handshake(
             refusal_, options_.server.authority(), target_of(options_),
             [self = shared_from_this()](error_code error) {

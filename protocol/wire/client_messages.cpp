@@ -1,6 +1,8 @@
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/object_reader.h"
+#include "protocol/wire/patch_section.h"
+#include "protocol/wire/session_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -23,7 +25,30 @@ Edit edit_from_json(ObjectReader& reader, json& message) {
     return {.id = id, .patch = std::move(message["patch"])};
 }
 
+DisplayChoice display_choice_from_json(ObjectReader& reader) {
+    DisplayChoice choice;
+    const json* const stops = reader.find("exposure_stops");
+    if (stops != nullptr && !stops->is_null()) {
+        choice.exposure_stops = number_from_json(*stops, "/exposure_stops", kExposureStops);
+    }
+    const json* const tone = reader.find("tone");
+    if (tone != nullptr && !tone->is_null()) {
+        choice.tone = kToneNames.value(string_from_json(*tone, "/tone"));
+        if (!choice.tone) {
+            throw WireError(ErrorCode::out_of_range, "/tone", quote(*tone),
+                            kToneNames.alternatives());
+        }
+    }
+    reader.refuse_other_keys();
+    return choice;
+}
+
 }  // namespace
+
+Display display_from_choice(const DisplayChoice& choice, const Display& room) {
+    return {.exposure_stops = choice.exposure_stops.value_or(room.exposure_stops),
+            .tone = choice.tone.value_or(room.tone)};
+}
 
 ClientMessage parse_client_message(std::string_view text, const Limits& limits) {
     json message = parse_json(text, limits.message_bytes);
@@ -38,7 +63,11 @@ ClientMessage parse_client_message(std::string_view text, const Limits& limits) 
         reader.refuse_other_keys();
         return ack;
     }
-    throw WireError(ErrorCode::unknown_type, "/type", quote(json(type)), "one of edit, ack");
+    if (type == "display") {
+        return display_choice_from_json(reader);
+    }
+    throw WireError(ErrorCode::unknown_type, "/type", quote(json(type)),
+                    "one of edit, ack, display");
 }
 
 std::string text_from_message(const Edit& message) {
@@ -47,6 +76,17 @@ std::string text_from_message(const Edit& message) {
 
 std::string text_from_message(const Ack& message) {
     return json{{"type", "ack"}, {"sequence", message.sequence}}.dump();
+}
+
+std::string text_from_message(const DisplayChoice& message) {
+    json text{{"type", "display"}, {"exposure_stops", nullptr}, {"tone", nullptr}};
+    if (message.exposure_stops) {
+        text["exposure_stops"] = *message.exposure_stops;
+    }
+    if (message.tone) {
+        text["tone"] = name_from(*message.tone);
+    }
+    return text.dump();
 }
 
 }  // namespace relume::wire

@@ -26,7 +26,15 @@ struct Edit {
 struct Ack {
     std::uint64_t sequence = 0;
 };
-using ClientMessage = std::variant<Edit, Ack>;
+// How the sender sees its JPEGs; what it does not choose is the room's.
+struct DisplayChoice {
+    std::optional<double> exposure_stops;
+    std::optional<Tone> tone;
+
+    friend bool operator==(const DisplayChoice&, const DisplayChoice&) = default;
+};
+using ClientMessage = std::variant<Edit, Ack, DisplayChoice>;
+[[nodiscard]] Display display_from_choice(const DisplayChoice& choice, const Display& room);
 
 // Server to client.
 struct Snapshot {
@@ -72,5 +80,6 @@ using ServerMessage = std::variant<Snapshot, Change, ErrorMessage, Viewers>;
 [[nodiscard]] ServerMessage parse_server_message(std::string_view text);
 [[nodiscard]] std::string text_from_message(const Edit& message);
 [[nodiscard]] std::string text_from_message(const Ack& message);
+[[nodiscard]] std::string text_from_message(const DisplayChoice& message);
 
 }  // namespace relume::wire

@@ -21,6 +21,7 @@ inline constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(),
                                   std::numeric_limits<double>::max()};
 inline constexpr Range kGain{0, 1e6};
 inline constexpr Range kColour{0, 1e4};
+inline constexpr Range kExposureStops{-20, 20};
 
 // Divides `numbers` by their length unless that is one already to rounding, so that normalising
 // twice gives the same bits as normalising once. Throws WireError{out_of_range} at `path`,

@@ -16,7 +16,6 @@ constexpr Range kAmount{0, 1};
 constexpr Range kAngleDegrees{-1e6, 1e6};
 constexpr Range kMilliseconds{0.1, 1000};
 constexpr Range kTargetError{0, 1};
-constexpr Range kExposureStops{-20, 20};
 constexpr std::uint64_t kMaxCoefficients = 393216;  // 6·256²
 
 json patch_environment(Environment& environment, const json& patch, const std::string& path) {

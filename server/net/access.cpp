@@ -1,5 +1,7 @@
 #include "server/net/access.h"
 
+#include "server/net/subprotocols.h"
+
 #include <cstddef>
 
 namespace relume::net {
@@ -28,6 +30,9 @@ bool Access::has_token(const HttpRequest& request) const {
     if (request.authorization && request.authorization->starts_with(kBearer)) {
         return equal_in_constant_time(
             std::string_view(*request.authorization).substr(kBearer.size()), token_);
+    }
+    if (const auto offered = token_from_subprotocols(request.subprotocols)) {
+        return equal_in_constant_time(*offered, token_);
     }
     const std::optional<std::string> parameter = request.target.parameter("token");
     return parameter && equal_in_constant_time(*parameter, token_);

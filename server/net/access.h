@@ -18,7 +18,8 @@ class Access {
     Access(std::string token, OriginPolicy origins, HostPolicy hosts)
         : token_(std::move(token)), origins_(std::move(origins)), hosts_(std::move(hosts)) {}
 
-    // `token=` in the query, or `Authorization: Bearer`.
+    // As `Authorization: Bearer`, among the subprotocols, or as `token=` in the query; the
+    // first of these that is there counts.
     [[nodiscard]] bool has_token(const HttpRequest& request) const;
     // Whatever is asked for.
     [[nodiscard]] bool allows_host(std::string_view host) const { return hosts_.allows(host); }

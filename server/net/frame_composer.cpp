@@ -32,11 +32,7 @@ void look(const light::Background& background,
 }  // namespace
 
 FrameComposer::FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height)
-    : sky_(sky),
-      width_(width),
-      height_(height),
-      background_(sky.size(), Imath::V3f(0)),
-      codes_(std::size_t{3} * width * height) {}
+    : sky_(sky), width_(width), height_(height), background_(sky.size(), Imath::V3f(0)) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
@@ -104,30 +100,41 @@ void FrameComposer::add_background(std::uint32_t x,
     }
 }
 
-void FrameComposer::compose_codes(const engine::Session& session, const DisplayTable& display) {
+void FrameComposer::compose(const engine::Session& session,
+                            std::span<const DisplayTable* const> displays,
+                            bool half_planes) {
+    const std::size_t pixel_count = std::size_t{width_} * height_;
+    codes_.resize(displays.size());
+    for (std::vector<std::uint8_t>& codes : codes_) {
+        codes.resize(3 * pixel_count);
+    }
+    if (half_planes) {
+        half_.width = width_;
+        half_.height = height_;
+        half_.has_alpha = has_alpha_;
+        half_.values.resize(pixel_count * half_.plane_count());
+    }
     for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
-        display.codes(rgb, std::span(codes_).subspan(3 * index, rgb.size()));
+        for (std::size_t i = 0; i < displays.size(); ++i) {
+            displays[i]->codes(rgb, std::span(codes_[i]).subspan(3 * index, rgb.size()));
+        }
+        if (half_planes) {
+            put_half(index, rgb);
+        }
     });
 }
 
-void FrameComposer::compose_half(const engine::Session& session) {
+void FrameComposer::put_half(std::size_t index, std::span<const float> rgb) {
     const std::size_t pixel_count = std::size_t{width_} * height_;
-    half_.width = width_;
-    half_.height = height_;
-    half_.has_alpha = has_alpha_;
-    half_.values.resize(pixel_count * half_.plane_count());
-    for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
-        for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                half_.values[c * pixel_count + index + i] =
-                    wire::half_from_linear(rgb[3 * i + c]);
-            }
-            if (has_alpha_) {
-                half_.values[3 * pixel_count + index + i] =
-                    wire::half_from_linear(sky_.coverage()[index + i]);
-            }
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            half_.values[c * pixel_count + index + i] = wire::half_from_linear(rgb[3 * i + c]);
         }
-    });
+        if (has_alpha_) {
+            half_.values[3 * pixel_count + index + i] =
+                wire::half_from_linear(sky_.coverage()[index + i]);
+        }
+    }
 }
 
 }  // namespace relume::net

@@ -25,19 +25,24 @@ class FrameComposer {
     void set_background(const wire::Background& background, const light::LightRig& rig);
     [[nodiscard]] bool has_alpha() const { return has_alpha_; }
 
-    // Puts the session's image and the background together, as code values for a JPEG, over
-    // black where transparent.
-    void compose_codes(const engine::Session& session, const DisplayTable& display);
-    // Of the last `compose_codes`: interleaved, row by row from the top, 3·width·height.
-    [[nodiscard]] std::span<const std::uint8_t> codes() const { return codes_; }
-
-    // The same as linear radiance in half floats, premultiplied where transparent.
-    void compose_half(const engine::Session& session);
+    // Puts the session's image and the background together: as code values for a JPEG of each
+    // display, over black where transparent; and, where `half_planes`, as linear radiance in
+    // half floats, premultiplied where transparent.
+    void compose(const engine::Session& session,
+                 std::span<const DisplayTable* const> displays,
+                 bool half_planes);
+    // Of the last `compose`, display by display: interleaved, row by row from the top,
+    // 3·width·height.
+    [[nodiscard]] std::span<const std::uint8_t> codes(std::size_t display) const {
+        return codes_[display];
+    }
     [[nodiscard]] const wire::HalfImage& half_image() const { return half_; }
 
   private:
     template <typename Take>
     void for_each_row(const engine::Session& session, const Take& take) const;
+    // Pixels from `index` on.
+    void put_half(std::size_t index, std::span<const float> rgb);
     // To the pixels of a row from x on.
     void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
 
@@ -46,7 +51,7 @@ class FrameComposer {
     std::uint32_t height_;
     bool has_alpha_ = false;
     std::vector<Imath::V3f> background_;  // of every sky pixel, times its visible part
-    std::vector<std::uint8_t> codes_;
+    std::vector<std::vector<std::uint8_t>> codes_;
     wire::HalfImage half_;
 };
 

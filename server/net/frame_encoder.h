@@ -17,12 +17,15 @@ class FrameEncoder {
   public:
     explicit FrameEncoder(Metrics& metrics) : metrics_(metrics) {}
 
-    // In the encoding that the picture's header names. Throws std::runtime_error naming what
-    // the codec said.
-    [[nodiscard]] SharedImageFrame encode(const Picture& picture);
+    // In each of the picture's forms. Throws std::runtime_error naming what the codec said.
+    [[nodiscard]] ImageFrames encode(const Picture& picture);
 
   private:
-    void append_jpeg(const Picture& picture, std::vector<std::byte>& bytes);
+    // `append` adds the payload to the bytes.
+    template <typename Append>
+    [[nodiscard]] SharedImageFrame frame_of(const Picture& picture,
+                                            wire::ImageEncoding encoding,
+                                            const Append& append);
 
     Metrics& metrics_;
     JpegEncoder jpeg_;

@@ -1,6 +1,7 @@
 #include "server/net/http_connection.h"
 
 #include "protocol/wire/names.h"
+#include "server/net/query_rules.h"
 #include "server/net/request_head.h"
 #include "server/net/websocket_connection.h"
 
@@ -148,6 +149,8 @@ class HttpConnection {
             refusal = bad_request(403, ErrorCode::unsupported, *request.origin,
                                   "the server's own origin or an allowed one");
         } else if (std::optional<HttpReply> fault = fault_of_handshake(parser)) {
+            refusal = std::move(fault);
+        } else if (std::optional<HttpReply> fault = fault_of_session_request(request)) {
             refusal = std::move(fault);
         } else if (!services_.readiness.ready()) {
             refusal =

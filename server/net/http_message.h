@@ -23,6 +23,7 @@ struct HttpRequest {
     std::optional<std::string> origin;
     std::optional<std::string> authorization;
     std::optional<std::string> if_none_match;
+    std::optional<std::string> subprotocols;  // that a WebSocket client offers
     std::optional<std::uint64_t> content_length;
     std::string client;  // the quota_key of whose request it is
 };

@@ -2,6 +2,7 @@
 
 #include "base/text/near_names.h"
 #include "server/net/log_sink.h"
+#include "server/net/query_rules.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,14 @@ std::optional<std::string_view> preview_name(std::string_view path) {
 }
 std::optional<std::string_view> thumbnail_name(std::string_view path) {
     return name_between(path, "/api/scenes/", "/thumbnail.png");
+}
+
+// The page reads the query of its own address, and a request for a session has rules of its
+// own; no other path takes parameters.
+bool may_have_parameters(std::string_view path) {
+    return path.starts_with(kSessionPrefix) ||
+           !(path.starts_with("/api/") || path == "/healthz" || path == "/readyz" ||
+             path == "/metrics");
 }
 
 HttpReply not_found(std::string_view what, std::string_view expected) {
@@ -97,6 +106,11 @@ HttpReply HttpRoutes::answer(const HttpRequest& request) const {
         reply.headers.emplace_back("Allow",
                                    path == kEnvironmentsPath ? "GET, HEAD, POST" : "GET, HEAD");
         return reply;
+    }
+    if (!may_have_parameters(path)) {
+        if (std::optional<HttpReply> fault = fault_of_query(request.target, {})) {
+            return *std::move(fault);
+        }
     }
     if (path == "/healthz") {
         return text_reply(200, "ok\n");

@@ -1,7 +1,9 @@
-// One encoded image as it goes over the wire, shared by all who see the room.
+// Encoded images as they go over the wire, shared by all who see the room.
 #pragma once
 
 #include "protocol/wire/image_header.h"
+#include "protocol/wire/messages.h"
+#include "server/net/image_interest.h"
 
 #include <cstddef>
 #include <memory>
@@ -12,12 +14,25 @@ namespace relume::net {
 struct ImageFrame {
     wire::ImageHeader header;
     std::vector<std::byte> bytes;  // header and payload
-
-    // The bit-exact image that follows when the state rests.
-    [[nodiscard]] bool settled() const {
-        return header.encoding == wire::ImageEncoding::half_planes;
-    }
+    bool settled = false;          // of a state that rests
 };
 using SharedImageFrame = std::shared_ptr<const ImageFrame>;
+
+// One image of a room in every form that its viewers asked for. All of them have one sequence
+// number.
+struct ImageFrames {
+    struct Jpeg {
+        wire::DisplayChoice display;
+        SharedImageFrame frame;
+    };
+    std::vector<Jpeg> jpegs;       // of different displays
+    SharedImageFrame half_planes;  // null if nobody asked for it
+    bool settled = false;
+
+    // For a viewer of this interest and display: a JPEG of another display, the room's where
+    // there is one, if there is none of his own; null where he gets nothing.
+    [[nodiscard]] SharedImageFrame for_viewer(ImageInterest interest,
+                                              const wire::DisplayChoice& display) const;
+};
 
 }  // namespace relume::net

@@ -65,8 +65,10 @@ class Outbox::WakeOnExit {
     std::unique_lock<std::mutex> lock_;
 };
 
-Outbox::Outbox(ImageInterest interest, std::size_t images_in_flight)
-    : interest_(interest), images_in_flight_(images_in_flight) {}
+Outbox::Outbox(ImageInterest interest, const wire::Limits& limits)
+    : interest_(interest),
+      images_in_flight_(limits.images_in_flight),
+      most_errors_(limits.errors_per_connection) {}
 
 void Outbox::put_snapshot(std::shared_ptr<const wire::Snapshot> snapshot) {
     const WakeOnExit guard(*this);
@@ -107,13 +109,10 @@ void Outbox::confirm(std::uint64_t revision, std::uint64_t edit_id) {
 
 void Outbox::put_error(const wire::ErrorMessage& error) {
     const WakeOnExit guard(*this);
-    if (errors_.size() == kMaxQueuedErrors) {
-        if (!close_) {
-            close_ = wire::CloseCode::too_many_errors;
-        }
-        return;
-    }
     errors_.push_back(error);
+    if (errors_.size() > most_errors_) {
+        errors_.pop_front();
+    }
 }
 
 void Outbox::put_viewers(std::uint32_t count) {
@@ -122,9 +121,6 @@ void Outbox::put_viewers(std::uint32_t count) {
 }
 
 bool Outbox::put_image(SharedImageFrame image) {
-    if (interest_ == ImageInterest::settled && !image->settled()) {
-        return false;
-    }
     const WakeOnExit guard(*this);
     const bool dropped = image_ != nullptr;
     image_ = std::move(image);
@@ -143,6 +139,16 @@ void Outbox::acknowledge(std::uint64_t sequence) {
     while (!unacknowledged_.empty() && unacknowledged_.front() <= sequence) {
         unacknowledged_.pop_front();
     }
+}
+
+void Outbox::choose_display(const wire::DisplayChoice& display) {
+    const std::lock_guard lock(mutex_);
+    display_ = display;
+}
+
+wire::DisplayChoice Outbox::display() const {
+    const std::lock_guard lock(mutex_);
+    return display_;
 }
 
 bool Outbox::wants_moving_image() const {

@@ -7,8 +7,10 @@
 // never waits for that.
 #pragma once
 
+#include "protocol/wire/limits.h"
 #include "protocol/wire/messages.h"
 #include "server/net/image_frame.h"
+#include "server/net/image_interest.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,8 +24,6 @@
 
 namespace relume::net {
 
-enum class ImageInterest : std::uint8_t { all, settled };
-
 // Thread-safe. Rooms put, one connection takes.
 class Outbox {
   public:
@@ -33,11 +33,10 @@ class Outbox {
     };
     using Item = std::variant<std::string, SharedImageFrame, Close>;
 
-    static constexpr std::size_t kMaxQueuedErrors = 32;
     // All else that a patch can name is of a fixed number.
     static constexpr std::size_t kMaxMergedLights = 256;
 
-    Outbox(ImageInterest interest, std::size_t images_in_flight);
+    Outbox(ImageInterest interest, const wire::Limits& limits);
 
     // Called (from any thread, without locks held) when there is something to take again after
     // `take` had nothing. Set before the outbox is shared.
@@ -51,10 +50,10 @@ class Outbox {
     [[nodiscard]] bool put_change(const wire::Change& change);
     // The edit of this id is in a snapshot that is put instead of its change.
     void confirm(std::uint64_t revision, std::uint64_t edit_id);
-    // More than kMaxQueuedErrors unsent ones close the connection (too_many_errors).
+    // Of unsent ones the last `errors_per_connection` are kept.
     void put_error(const wire::ErrorMessage& error);
     void put_viewers(std::uint32_t count);
-    // Ignores what the client is not interested in. True if an unsent image was dropped for it.
+    // True if an unsent image was dropped for it.
     bool put_image(SharedImageFrame image);
     // Ends with this code; the first call counts. When the server shuts down, or there were
     // too many errors, all else that may be sent goes before.
@@ -66,6 +65,11 @@ class Outbox {
     // acknowledgement.
     [[nodiscard]] bool wants_moving_image() const;
     [[nodiscard]] ImageInterest interest() const { return interest_; }
+
+    // JPEGs that are made from now on have it. It is no edit: nothing is relit, and the image
+    // of a state that rests, being linear, stands.
+    void choose_display(const wire::DisplayChoice& display);
+    [[nodiscard]] wire::DisplayChoice display() const;
 
     // The next thing to send: snapshot, change, errors, viewers, image, close.
     [[nodiscard]] std::optional<Item> take();
@@ -82,6 +86,7 @@ class Outbox {
 
     const ImageInterest interest_;
     const std::size_t images_in_flight_;
+    const std::size_t most_errors_;
     std::function<void()> wake_;
 
     mutable std::mutex mutex_;
@@ -89,6 +94,7 @@ class Outbox {
     std::optional<wire::Change> change_;
     std::deque<wire::ErrorMessage> errors_;
     std::optional<std::uint32_t> viewers_;
+    wire::DisplayChoice display_;
     SharedImageFrame image_;
     std::deque<std::uint64_t> unacknowledged_;  // sequence numbers, ascending
     std::optional<wire::CloseCode> close_;

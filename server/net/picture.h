@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/wire/image_header.h"
+#include "server/net/image_forms.h"
 
 #include <memory>
 
@@ -10,9 +11,12 @@ namespace relume::net {
 class FrameComposer;
 
 struct Picture {
-    // All but what encoding tells: its time and the payload's length.
+    // All but the encoding and what it tells: its time and the payload's length.
     wire::ImageHeader header;
-    int jpeg_quality = 0;  // of a JPEG
+    bool has_alpha = false;  // of half planes
+    bool settled = false;
+    ImageForms forms;
+    int jpeg_quality = 0;
     // Holds the pixels, as the encoding takes them; composes nothing else before the picture is
     // encoded.
     std::shared_ptr<const FrameComposer> composer;

@@ -85,9 +85,6 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
         (rig_changed && sees_environment)) {
         composer_->set_background(state.background, rig_);
     }
-    if (!state_ || state_->display != state.display) {
-        display_ = std::make_unique<const DisplayTable>(state.display);
-    }
     session_.set_strategy(state.strategy);
     state_ = state;
     environments_ = environments;
@@ -198,37 +195,30 @@ wire::Budget Relighter::budget_for_slice(std::size_t sessions) const {
     return budget;
 }
 
-void Relighter::compose(wire::ImageEncoding encoding) {
+void Relighter::compose(const ImageForms& forms, bool settled) {
     const Clock::time_point begin = Clock::now();
-    const bool moves = encoding == wire::ImageEncoding::jpeg;
-    if (moves) {
-        composer_->compose_codes(session_, *display_);
-    } else {
-        composer_->compose_half(session_);
-    }
+    composer_->compose(session_, displays_.of(forms.displays, state_->display),
+                       forms.half_planes);
     const Clock::duration spent = Clock::now() - begin;
     metrics_.observe_compose(seconds(spent));
-    if (moves) {
+    if (!settled) {
         blend(compose_ms_, milliseconds(spent));
     }
 }
 
-Picture Relighter::picture(const ImageStamp& stamp,
-                           wire::ImageEncoding encoding,
-                           int jpeg_quality) {
-    compose(encoding);
+Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
+    compose(forms, stamp.settled);
     const transport::TileGrid& image = scene_->engine->image();
     const bool exact = session_.exact();
     Picture picture{
-        .header = {.encoding = encoding,
+        .header = {.encoding = {},
                    .width = image.width,
                    .height = image.height,
                    .revision = stamp.revision,
                    .sequence = stamp.sequence,
                    .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),
                    .exact = exact,
-                   .has_alpha =
-                       encoding == wire::ImageEncoding::half_planes && composer_->has_alpha(),
+                   .has_alpha = false,
                    .edit_to_image_ms =
                        static_cast<float>(milliseconds(Clock::now() - stamp.edit_read_at)),
                    .relight_ms = static_cast<float>(milliseconds(relight_time_)),
@@ -236,6 +226,9 @@ Picture Relighter::picture(const ImageStamp& stamp,
                    .coefficients_applied = applied_,
                    .payload_bytes = 0,
                    .coefficients_remaining = exact ? 0 : remaining_},
+        .has_alpha = composer_->has_alpha(),
+        .settled = stamp.settled,
+        .forms = forms,
         .jpeg_quality = jpeg_quality,
         .composer = composer_};
     image_changed_ = false;

@@ -7,7 +7,7 @@
 #include "server/light/light_cubemap.h"
 #include "server/light/light_rig.h"
 #include "server/net/clock.h"
-#include "server/net/display_table.h"
+#include "server/net/display_tables.h"
 #include "server/net/frame_composer.h"
 #include "server/net/metrics.h"
 #include "server/net/named_environments.h"
@@ -26,6 +26,7 @@ struct ImageStamp {
     std::uint64_t revision = 0;
     std::uint64_t sequence = 0;
     Clock::time_point edit_read_at;
+    bool settled = false;  // the state rests
 };
 
 // Not thread-safe: a room calls it from one worker at a time.
@@ -58,7 +59,7 @@ class Relighter {
 
     // The image as it stands, composed; the picture before must have been encoded.
     [[nodiscard]] Picture picture(const ImageStamp& stamp,
-                                  wire::ImageEncoding encoding,
+                                  const ImageForms& forms,
                                   int jpeg_quality);
     // What an image takes besides being lit, relit and composed: to wait for a thread, to be
     // encoded.
@@ -69,7 +70,7 @@ class Relighter {
                  const NamedEnvironments& environments,
                  std::vector<wire::ErrorMessage>& problems);
     void stepped(const engine::StepReport& step, Clock::duration spent);
-    void compose(wire::ImageEncoding encoding);
+    void compose(const ImageForms& forms, bool settled);
     // For relighting, of all the milliseconds that so many sessions take together.
     [[nodiscard]] wire::Budget budget_for_relighting(std::size_t sessions) const;
     // Of that budget, what the slices since the state was set have left; all of it again once
@@ -87,7 +88,7 @@ class Relighter {
     light::LightRig rig_;
     light::LightCubemap cubemap_;
     std::vector<float> coefficients_;
-    std::unique_ptr<const DisplayTable> display_;
+    DisplayTables displays_;
 
     // Running means of what is not relighting.
     double lighting_ms_ = 0;  // of a new state

@@ -127,6 +127,7 @@ std::variant<HttpRequest, HttpReply> request_from_head(const HeaderParser& parse
                         .origin = field(parser, http::field::origin),
                         .authorization = field(parser, http::field::authorization),
                         .if_none_match = field(parser, http::field::if_none_match),
+                        .subprotocols = field(parser, http::field::sec_websocket_protocol),
                         .content_length = {},
                         .client = {}};
     if (const auto length = parser.content_length()) {

@@ -300,6 +300,13 @@ void Room::look_who_is_ready(RoomSlice& slice) const {
     const std::lock_guard lock(mutex_);
     slice.encoder_is_free = !encoding_;
     slice.viewer_wants_moving = viewer_wants_moving_locked();
+    for (const SharedOutbox& viewer : viewers_) {
+        if (viewer->interest() == ImageInterest::all) {
+            slice.moving_forms.add(viewer->display());
+        } else if (viewer->interest() == ImageInterest::moving_float) {
+            slice.moving_forms.half_planes = true;
+        }
+    }
 }
 
 bool Room::viewer_wants_moving_locked() const {
@@ -349,17 +356,18 @@ void Room::encode(const Picture& picture, Clock::time_point since) noexcept {
     }
 }
 
-void Room::deliver(const SharedImageFrame& frame, Clock::time_point since) {
+void Room::deliver(const ImageFrames& frames, Clock::time_point since) {
     const std::lock_guard lock(mutex_);
     encoding_ = false;
-    if (frame->settled() && frame->header.revision == revision_) {
-        settled_frame_ = frame;
+    if (frames.settled && frames.half_planes->header.revision == revision_) {
+        settled_frame_ = frames.half_planes;
     }
-    if (!frame->settled()) {
+    if (!frames.settled) {
         pace_.encoding_took(Clock::now() - since);
     }
     for (const SharedOutbox& viewer : viewers_) {
-        if (viewer->put_image(frame)) {
+        SharedImageFrame frame = frames.for_viewer(viewer->interest(), viewer->display());
+        if (frame && viewer->put_image(std::move(frame))) {
             metrics_.count_dropped_image();
         }
     }

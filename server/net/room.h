@@ -105,7 +105,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     void end_slice(const RoomSlice& slice, SliceResult result);
     // `since`: when the picture was done.
     void encode(const Picture& picture, Clock::time_point since) noexcept;
-    void deliver(const SharedImageFrame& frame, Clock::time_point since);
+    void deliver(const ImageFrames& frames, Clock::time_point since);
     void fail(const std::string& reason);
     void queue_next_slice_locked();
     void broadcast_viewers_locked();

@@ -31,15 +31,16 @@ SliceResult RoomImages::end(const RoomSlice& slice) {
     if (!slice.encoder_is_free) {
         return result;
     }
-    const ImageStamp stamp{.revision = slice.revision,
-                           .sequence = sequence_ + 1,
-                           .edit_read_at = slice.edit_read_at};
+    ImageStamp stamp{.revision = slice.revision,
+                     .sequence = sequence_ + 1,
+                     .edit_read_at = slice.edit_read_at};
     const Clock::time_point now = Clock::now();
     if (result.at_rest && slice.settled_image_due && now >= slice.settle_at) {
-        result.picture = relighter_->picture(stamp, wire::ImageEncoding::half_planes, 0);
+        stamp.settled = true;
+        result.picture = relighter_->picture(stamp, {.displays = {}, .half_planes = true}, 0);
     } else if (moving_image_is_due(slice, now)) {
         result.picture =
-            relighter_->picture(stamp, wire::ImageEncoding::jpeg,
+            relighter_->picture(stamp, slice.moving_forms,
                                 slice.first_image_due ? options_.moving_jpeg_quality
                                                       : options_.converging_jpeg_quality);
     }

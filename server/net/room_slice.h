@@ -29,6 +29,7 @@ struct RoomSlice {
     // As it is when the picture is due, not when the slice begins:
     bool encoder_is_free = false;
     bool viewer_wants_moving = false;
+    ImageForms moving_forms;  // that viewers want
     // What an image has been taking besides the slice: to wait for a worker, and to be encoded.
     double beside_ms = 0;
 };

@@ -2,6 +2,7 @@
 
 #include "protocol/wire/names.h"
 #include "server/light/environment_error.h"
+#include "server/net/query_rules.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,9 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
     if (!access_.has_token(request)) {
         return error_reply(401, WireError(ErrorCode::unsupported, "token",
                                           "no or another token", "the server's token"));
+    }
+    if (auto fault = fault_of_query(request.target, {"name", "projection", "centre", "layer", "token"})) {
+        return *std::move(fault);
     }
     const std::optional<std::string> name = request.target.parameter("name");
     if (!name) {

@@ -2,6 +2,7 @@
 
 #include "protocol/wire/messages.h"
 #include "server/net/outbox.h"
+#include "server/net/subprotocols.h"
 #include "server/net/token_bucket.h"
 
 #include <boost/asio/as_tuple.hpp>
@@ -45,8 +46,9 @@ double weight_of_message(std::size_t bytes) {
 }
 
 ImageInterest interest_of(const HttpRequest& request) {
-    return request.target.parameter("images") == "settled" ? ImageInterest::settled
-                                                           : ImageInterest::all;
+    const std::optional<std::string> images = request.target.parameter("images");
+    return images ? kImageInterestNames.value(*images).value_or(ImageInterest::all)
+                  : ImageInterest::all;
 }
 
 // Reader and writer are two coroutines on one strand; the outbox between room and writer is
@@ -59,8 +61,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
         : socket_(std::move(stream)),
           services_(services),
           request_(std::move(request)),
-          outbox_(std::make_shared<Outbox>(interest_of(request_),
-                                           services.limits.images_in_flight)),
+          outbox_(std::make_shared<Outbox>(interest_of(request_), services.limits)),
           wake_timer_(socket_.get_executor()),
           write_timer_(socket_.get_executor()),
           messages_(static_cast<double>(services.limits.messages_per_second),
@@ -69,6 +70,13 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
 
     asio::awaitable<void> run(http::request<http::empty_body> upgrade, std::string room_name) {
         configure();
+        if (offers_subprotocol(request_.subprotocols)) {
+            socket_.set_option(
+                websocket::stream_base::decorator([](websocket::response_type& response) {
+                    response.set(http::field::sec_websocket_protocol,
+                                 beast::string_view(kSubprotocol.data(), kSubprotocol.size()));
+                }));
+        }
         auto [error] = co_await socket_.async_accept(upgrade, kNoThrow);
         if (error) {
             co_return;
@@ -182,6 +190,10 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             wire::ClientMessage message = wire::parse_client_message(text, services_.limits);
             if (const wire::Ack* const ack = std::get_if<wire::Ack>(&message)) {
                 room_->acknowledge(*outbox_, ack->sequence);
+                return;
+            }
+            if (const auto* const display = std::get_if<wire::DisplayChoice>(&message)) {
+                outbox_->choose_display(*display);
                 return;
             }
             const wire::Edit& edit = std::get<wire::Edit>(message);

@@ -26,10 +26,11 @@ void ImagePipeline::turn_light(std::size_t number) {
 void ImagePipeline::begin_encoding() {
     encoding_.wait();
     composer_.set_background(wire::Background{}, rig_);
-    composer_.compose_codes(session_, display_);
+    const net::DisplayTable* const display = &display_;
+    composer_.compose(session_, {&display, 1}, false);
     encoding_.run([this] {
         jpeg_bytes_ = jpeg_
-                          .encode(composer_.codes(), scene_->image().width,
+                          .encode(composer_.codes(0), scene_->image().width,
                                   scene_->image().height, kMovingQuality)
                           .size();
     });

@@ -78,8 +78,15 @@ export function sessionAddress(place: Place, scene: string, room: string): strin
     const url = new URL(`/session/${room}`, place.server);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     url.searchParams.set("scene", scene);
-    if (place.token !== null) url.searchParams.set("token", place.token);
     return url.href;
+}
+
+/** What the page offers a server: the protocol's version, and the token, if it has one. */
+export function subprotocols(place: Place): string[] {
+    if (place.token === null) return ["relume.v1"];
+    const bytes = String.fromCharCode(...new TextEncoder().encode(place.token));
+    const base64url = btoa(bytes).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+    return ["relume.v1", `relume.token.${base64url}`];
 }
 
 /** The address of this page showing another scene, in that scene's default room. */

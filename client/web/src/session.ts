@@ -50,7 +50,10 @@ export class Session {
     private timer = 0;
     private nextEditId = 1;
 
-    constructor(private readonly url: string) {
+    constructor(
+        private readonly url: string,
+        private readonly subprotocols: string[],
+    ) {
         window.addEventListener("online", () => this.retryNow());
     }
 
@@ -79,7 +82,7 @@ export class Session {
     connect(): void {
         clearTimeout(this.timer);
         this.setStatus({ kind: "connecting", words: "Connecting" });
-        const socket = new WebSocket(this.url);
+        const socket = new WebSocket(this.url, this.subprotocols);
         socket.binaryType = "arraybuffer";
         socket.onmessage = (event) => this.receive(socket, event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(socket, event);

@@ -20,7 +20,7 @@ import type { Lighting } from "./lighting";
 import { LightsPanel } from "./lights_panel";
 import type { Notices } from "./notices";
 import { medianRadiance } from "./median_radiance";
-import type { Place } from "./place";
+import { type Place, subprotocols } from "./place";
 import { PreviewStore } from "./preview_store";
 import { type MarkKind, Readouts } from "./readouts";
 import { Session } from "./session";
@@ -60,7 +60,7 @@ export class Studio {
         private readonly api: Api,
         private readonly notices: Notices,
     ) {
-        const session = new Session(address);
+        const session = new Session(address, subprotocols(place));
         this.session = session;
         this.view = new ImageView(byId("image-frame"), place.mayUseGl);
         this.decoder = new ImageDecoder(

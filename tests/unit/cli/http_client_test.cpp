@@ -29,7 +29,7 @@ TEST(HttpClient, GivesStatusAndBody) {
 
 TEST(HttpClient, PostsWithALength) {
     LoopbackServer server(std::string("HTTP/1.1 201 Created\r\nContent-Length: 2\r\n\r\n{}"));
-    EXPECT_EQ(http_post(server.url(), "/api/environments?name=a", "four").status, 201U);
+    EXPECT_EQ(http_post(server.url(), "/api/environments?name=a", "", "four").status, 201U);
     EXPECT_NE(server.wait_for_request().find("Content-Length: 4\r\n"), std::string::npos);
 }
 

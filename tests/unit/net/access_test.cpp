@@ -1,5 +1,7 @@
 #include "server/net/access.h"
 
+#include "server/net/subprotocols.h"
+
 #include <gtest/gtest.h>
 
 namespace relume::net {
@@ -36,6 +38,41 @@ TEST(Access, TakesTheTokenFromQueryOrHeader) {
     EXPECT_FALSE(access.has_token(with_header));
     with_header.authorization = "Basic secret";
     EXPECT_FALSE(access.has_token(with_header));
+}
+
+TEST(Access, TakesTheTokenFromASubprotocol) {
+    const Access access("secret?>", OriginPolicy({}));
+    HttpRequest asking = request("/?token=other");
+    const auto offers = [&](const char* offered) {
+        asking.subprotocols = offered;
+        return access.has_token(asking);
+    };
+    EXPECT_TRUE(offers("relume.v1, relume.token.c2VjcmV0Pz4"));
+    EXPECT_TRUE(offers("relume.token.c2VjcmV0Pz4"));
+    EXPECT_FALSE(offers("relume.v1, relume.token.c2VjcmV0Pz5"));
+    EXPECT_FALSE(offers("relume.v1, relume.token.c2VjcmV0Pz4="));
+    EXPECT_FALSE(offers("relume.v1, relume.token."));
+    EXPECT_FALSE(offers("relume.v1"));
+    asking.authorization = "Bearer secret?>";
+    EXPECT_TRUE(offers("relume.token.AAAA"));
+}
+
+TEST(Subprotocols, TokensAreBase64Url) {
+    EXPECT_EQ(token_from_subprotocols("relume.token.-_-_"), "\xFB\xFF\xBF");
+    EXPECT_EQ(token_from_subprotocols("x,\trelume.token.Zg , y"), "f");
+    EXPECT_EQ(token_from_subprotocols("relume.token.Zh"), std::nullopt);  // bits left over
+    EXPECT_EQ(token_from_subprotocols("relume.token.Z"), std::nullopt);
+    EXPECT_EQ(token_from_subprotocols("relume.token.Zg=="), std::nullopt);
+    EXPECT_EQ(token_from_subprotocols(std::nullopt), std::nullopt);
+}
+
+TEST(Subprotocols, OneVersionMustBeTheServers) {
+    EXPECT_TRUE(offers_subprotocol("relume.v2, relume.v1"));
+    EXPECT_FALSE(offers_other_versions_only("relume.v2, relume.v1"));
+    EXPECT_TRUE(offers_other_versions_only("relume.v2"));
+    EXPECT_TRUE(offers_other_versions_only("relume.v10 ,relume.token.AAAA"));
+    EXPECT_FALSE(offers_other_versions_only("chat"));
+    EXPECT_FALSE(offers_other_versions_only(std::nullopt));
 }
 
 TEST(OriginPolicy, OwnOriginAndNoOriginAreAllowed) {

@@ -129,6 +129,22 @@ TEST_F(HostileClient, TooManyErrorsClose) {
     expect_serves_on();
 }
 
+// However few of them the client has read: the last is told, too.
+TEST_F(HostileClient, TheStatedNumberOfErrorsIsTakenInABurst) {
+    start();
+    const std::uint64_t cap = configuration_.limits.errors_per_connection;
+    WebSocketClient client(port(), kTarget);
+    for (std::uint64_t i = 1; i < cap; ++i) {
+        client.send(std::string("{"));
+    }
+    for (std::uint64_t i = 1; i < cap; ++i) {
+        EXPECT_EQ(client.receive_message("error")["code"], "malformed_json");
+    }
+    client.send(std::string("{"));
+    EXPECT_EQ(client.receive_message("error")["code"], "malformed_json");
+    EXPECT_EQ(client.receive_close(), 4005U);
+}
+
 TEST_F(HostileClient, TooManyMessagesClose) {
     configuration_.limits.messages_per_second = 1;
     configuration_.limits.message_burst = 10;

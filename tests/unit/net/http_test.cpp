@@ -173,6 +173,32 @@ TEST_F(HttpTest, UploadsAreDecodedAndListed) {
     EXPECT_EQ(http(port(), "GET", "/api/environments/mine/preview.jpg").status, 200U);
 }
 
+TEST_F(HttpTest, ParametersThatAreUnknownOrWrongAreRefusedByName) {
+    start();
+    const auto fault = [](const HttpAnswer& answer) {
+        const json error = json::parse(answer.body)["error"];
+        return std::to_string(answer.status) + " " + error["code"].get<std::string>() + " " +
+               error["found"].get<std::string>();
+    };
+    for (const char* path :
+         {"/healthz", "/readyz", "/metrics", "/api/scenes", "/api/environments",
+          "/api/scenes/tiny/thumbnail.png", "/api/environments/small/preview.jpg"}) {
+        EXPECT_EQ(fault(http(port(), "GET", std::string(path) + "?size=2")),
+                  "400 unknown_field the parameter \"size\"")
+            << path;
+    }
+    EXPECT_EQ(fault(upload("?name=mine&projektion=lat_long", hdr_file())),
+              "400 unknown_field the parameter \"projektion\"");
+    const auto session = [&](const std::string& query) {
+        return fault(http_raw(port(), upgrade_request("/session/r?scene=tiny" + query)));
+    };
+    EXPECT_EQ(session("&image=all"), "400 unknown_field the parameter \"image\"");
+    EXPECT_EQ(session("&images=none"), "400 unknown_name none");
+    EXPECT_EQ(session("&images="), "400 unknown_name ");
+    EXPECT_EQ(http(port(), "GET", "/?scene=tiny&room=r").status, 200U);
+    expect_serves_on();
+}
+
 TEST_F(HttpTest, BadUploadsGetNamedErrors) {
     configuration_.limits.upload_bytes = 100'000;
     start();

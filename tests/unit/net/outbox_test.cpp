@@ -1,5 +1,7 @@
 #include "server/net/outbox.h"
 
+#include "server/net/image_forms.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,12 @@ namespace relume::net {
 namespace {
 
 using nlohmann::json;
+
+wire::Limits limits() {
+    wire::Limits limits;
+    limits.images_in_flight = 2;
+    return limits;
+}
 
 SharedImageFrame image(std::uint64_t sequence,
                        wire::ImageEncoding encoding = wire::ImageEncoding::jpeg) {
@@ -33,7 +41,7 @@ std::uint64_t taken_sequence(Outbox& outbox) {
 }
 
 TEST(Outbox, TheNewestImageReplacesAnUnsentOne) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     EXPECT_FALSE(outbox.put_image(image(1)));
     EXPECT_TRUE(outbox.put_image(image(2)));
     EXPECT_TRUE(outbox.put_image(image(3)));
@@ -42,7 +50,7 @@ TEST(Outbox, TheNewestImageReplacesAnUnsentOne) {
 }
 
 TEST(Outbox, NoMoreThanTheBoundIsInFlight) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     outbox.put_image(image(1));
     EXPECT_EQ(taken_sequence(outbox), 1U);
     outbox.put_image(image(2));
@@ -57,7 +65,7 @@ TEST(Outbox, NoMoreThanTheBoundIsInFlight) {
 }
 
 TEST(Outbox, AnAcknowledgementCountsForAllBefore) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     for (const std::uint64_t sequence : {5U, 9U}) {
         outbox.put_image(image(sequence));
         EXPECT_EQ(taken_sequence(outbox), sequence);
@@ -70,17 +78,44 @@ TEST(Outbox, AnAcknowledgementCountsForAllBefore) {
     EXPECT_TRUE(outbox.wants_moving_image());
 }
 
-TEST(Outbox, SettledInterestTakesNoMovingImage) {
-    Outbox outbox(ImageInterest::settled, 2);
-    EXPECT_FALSE(outbox.wants_moving_image());
-    outbox.put_image(image(1));
-    EXPECT_FALSE(outbox.take().has_value());
-    outbox.put_image(image(2, wire::ImageEncoding::half_planes));
-    EXPECT_EQ(taken_sequence(outbox), 2U);
+TEST(Outbox, SettledInterestWantsNoMovingImage) {
+    EXPECT_FALSE(Outbox(ImageInterest::settled, limits()).wants_moving_image());
+    EXPECT_TRUE(Outbox(ImageInterest::all, limits()).wants_moving_image());
+    EXPECT_TRUE(Outbox(ImageInterest::moving_float, limits()).wants_moving_image());
+}
+
+TEST(ImageFrames, EveryViewerGetsTheFormHeAskedFor) {
+    const wire::DisplayChoice bright{.exposure_stops = 2, .tone = {}};
+    const wire::DisplayChoice linear{.exposure_stops = {}, .tone = wire::Tone::linear};
+    ImageFrames frames;
+    frames.jpegs = {{.display = bright, .frame = image(1)}, {.display = {}, .frame = image(1)}};
+    frames.half_planes = image(1, wire::ImageEncoding::half_planes);
+    EXPECT_EQ(frames.for_viewer(ImageInterest::all, bright), frames.jpegs[0].frame);
+    EXPECT_EQ(frames.for_viewer(ImageInterest::all, {}), frames.jpegs[1].frame);
+    EXPECT_EQ(frames.for_viewer(ImageInterest::all, linear), frames.jpegs[1].frame);
+    EXPECT_EQ(frames.for_viewer(ImageInterest::moving_float, bright), frames.half_planes);
+    EXPECT_EQ(frames.for_viewer(ImageInterest::settled, {}), nullptr);
+    frames.jpegs.clear();
+    frames.settled = true;
+    for (const ImageInterest interest :
+         {ImageInterest::all, ImageInterest::settled, ImageInterest::moving_float}) {
+        EXPECT_EQ(frames.for_viewer(interest, bright), frames.half_planes);
+    }
+}
+
+TEST(ImageForms, AreBoundedAndTheRoomsDisplayIsAmongThemWhereTheyDoNotSuffice) {
+    ImageForms forms;
+    for (int stops = 1; stops <= 9; ++stops) {
+        forms.add({.exposure_stops = stops, .tone = {}});
+        forms.add({.exposure_stops = 1, .tone = {}});
+    }
+    ASSERT_EQ(forms.displays.size(), ImageForms::kMostDisplays);
+    EXPECT_EQ(forms.displays.front().exposure_stops, 1);
+    EXPECT_EQ(forms.displays.back(), wire::DisplayChoice{});
 }
 
 TEST(Outbox, UnsentChangesMergeAndKeepTheLastRevision) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     EXPECT_TRUE(outbox.put_change(
         {.revision = 4,
          .patch = {{"environment", {{"gain", 2}}}, {"lights", {{"a", nullptr}}}},
@@ -105,7 +140,7 @@ TEST(Outbox, AChangeThatWouldGrowGivesWayToASnapshot) {
         }
         return json{{"lights", named}};
     };
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     // However much one edit names, it is one edit.
     EXPECT_TRUE(outbox.put_change(
         {.revision = 1, .patch = lights(0, Outbox::kMaxMergedLights), .edit_id = 5}));
@@ -127,7 +162,7 @@ TEST(Outbox, AChangeThatWouldGrowGivesWayToASnapshot) {
 }
 
 TEST(Outbox, AnEditThatASnapshotHoldsIsConfirmedAfterIt) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     outbox.put_snapshot(std::make_shared<const wire::Snapshot>());
     outbox.confirm(7, 12);
     EXPECT_EQ(taken_text(outbox)["type"], "snapshot");
@@ -138,7 +173,7 @@ TEST(Outbox, AnEditThatASnapshotHoldsIsConfirmedAfterIt) {
 }
 
 TEST(Outbox, SnapshotComesFirstAndTextBeforeImages) {
-    Outbox outbox(ImageInterest::all, 2);
+    Outbox outbox(ImageInterest::all, limits());
     outbox.put_image(image(1));
     outbox.put_viewers(1);
     outbox.put_viewers(2);
@@ -150,30 +185,27 @@ TEST(Outbox, SnapshotComesFirstAndTextBeforeImages) {
     EXPECT_EQ(taken_sequence(outbox), 1U);
 }
 
-TEST(Outbox, TooManyUnsentErrorsClose) {
-    Outbox outbox(ImageInterest::all, 2);
-    for (std::size_t i = 0; i <= Outbox::kMaxQueuedErrors; ++i) {
+TEST(Outbox, OfUnsentErrorsTheNewestAreKept) {
+    Outbox outbox(ImageInterest::all, limits());
+    for (std::uint64_t id = 0; id <= wire::Limits().errors_per_connection; ++id) {
         wire::ErrorMessage error;
-        error.code = wire::ErrorCode::wrong_type;
+        error.edit_id = id;
         outbox.put_error(error);
     }
-    for (std::size_t i = 0; i < Outbox::kMaxQueuedErrors; ++i) {
-        EXPECT_EQ(taken_text(outbox)["code"], "wrong_type");
+    for (std::uint64_t id = 1; id <= wire::Limits().errors_per_connection; ++id) {
+        EXPECT_EQ(taken_text(outbox)["edit_id"], id);
     }
-    const std::optional<Outbox::Item> last = outbox.take();
-    ASSERT_TRUE(last.has_value());
-    EXPECT_EQ(std::get<Outbox::Close>(*last).code, wire::CloseCode::too_many_errors);
     EXPECT_FALSE(outbox.take().has_value());
 }
 
 TEST(Outbox, ShuttingDownSendsTheImageFirstAndOtherClosesDoNot) {
-    Outbox patient(ImageInterest::all, 2);
+    Outbox patient(ImageInterest::all, limits());
     patient.put_image(image(7));
     patient.close(wire::CloseCode::shutting_down);
     EXPECT_EQ(taken_sequence(patient), 7U);
     EXPECT_TRUE(std::holds_alternative<Outbox::Close>(patient.take().value()));
 
-    Outbox strict(ImageInterest::all, 2);
+    Outbox strict(ImageInterest::all, limits());
     strict.put_image(image(7));
     strict.close(wire::CloseCode::too_fast);
     strict.close(wire::CloseCode::bye);
@@ -184,7 +216,7 @@ TEST(Outbox, ShuttingDownSendsTheImageFirstAndOtherClosesDoNot) {
 
 TEST(Outbox, WakesOnceForATakerThatFoundNothing) {
     int wakes = 0;
-    Outbox outbox(ImageInterest::all, 1);
+    Outbox outbox(ImageInterest::all, limits());
     outbox.set_wake([&wakes] { ++wakes; });
     outbox.put_viewers(1);
     EXPECT_EQ(wakes, 0);  // nobody has asked yet

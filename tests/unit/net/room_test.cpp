@@ -63,7 +63,7 @@ class RoomTest : public testing::Test {
         return options;
     }
     static Room::SharedOutbox outbox(ImageInterest interest = ImageInterest::all) {
-        return std::make_shared<Outbox>(interest, 2);
+        return std::make_shared<Outbox>(interest, wire::Limits());
     }
     std::shared_ptr<Room> enter(const Room::SharedOutbox& viewer,
                                 const std::string& name = "r") {
@@ -88,7 +88,7 @@ class RoomTest : public testing::Test {
             }
             const auto frame = std::get<SharedImageFrame>(*item);
             room.acknowledge(viewer, frame->header.sequence);
-            if (frame->settled() && frame->header.revision == revision) {
+            if (frame->settled && frame->header.revision == revision) {
                 found = frame;
             }
             return found != nullptr;

@@ -1,8 +1,14 @@
 // Sessions over real sockets: what well-meaning clients see.
+#include "protocol/wire/half_image.h"
 #include "tests/unit/net/running_server.h"
 #include "tests/unit/net/websocket_client.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <vector>
 
 namespace relume::net {
 namespace {
@@ -95,6 +101,142 @@ TEST_F(SessionTest, SequenceAndRevisionNeverFallAndStatedErrorEndsAtZero) {
         last = header;
     }
     EXPECT_EQ(last.relative_error, 0);
+}
+
+TEST_F(SessionTest, ATokenMayComeInAHeaderOrAsASubprotocol) {
+    configuration_.token = "secret";
+    start();
+    const std::string target = "/session/r?scene=tiny&images=settled";
+    const auto is_let_in = [&](const WebSocketClient::Fields& fields) {
+        WebSocketClient client(port(), target, fields);
+        const auto first = client.receive();
+        return first.has_value() && json::parse(first->bytes)["type"] == "snapshot";
+    };
+    EXPECT_FALSE(is_let_in({}));
+    EXPECT_TRUE(is_let_in({{"Authorization", "Bearer secret"}}));
+    EXPECT_TRUE(is_let_in({{"Sec-WebSocket-Protocol", "relume.v1, relume.token.c2VjcmV0"}}));
+    EXPECT_FALSE(is_let_in({{"Sec-WebSocket-Protocol", "relume.v1"}}));
+    EXPECT_THROW(is_let_in({{"Sec-WebSocket-Protocol", "relume.v2"}}), std::runtime_error);
+}
+
+struct MovingImage {
+    wire::ImageHeader header;
+    wire::HalfImage image;
+};
+
+// All images of a revision, the exact one last.
+std::vector<MovingImage> images_until_exact(WebSocketClient& client, std::uint64_t revision) {
+    std::vector<MovingImage> images;
+    while (images.empty() || !images.back().header.exact) {
+        const auto frame = client.receive();
+        if (!frame) {
+            throw std::runtime_error("the session ended before an exact image");
+        }
+        if (!frame->binary) {
+            continue;
+        }
+        const wire::ImageHeader header = frame->image_header();
+        client.acknowledge(header.sequence);
+        EXPECT_EQ(header.encoding, wire::ImageEncoding::half_planes);
+        if (header.revision == revision) {
+            const auto payload =
+                std::as_bytes(std::span(frame->bytes)).subspan(wire::kImageHeaderBytes);
+            images.push_back(
+                {header, wire::decode_half_image(payload, header.width, header.height,
+                                                 header.has_alpha)});
+        }
+    }
+    return images;
+}
+
+double squared_relative_l2(const wire::HalfImage& image, const wire::HalfImage& exact) {
+    double difference = 0;
+    double norm = 0;
+    for (std::size_t i = 0; i < std::size_t{3} * exact.width * exact.height; ++i) {
+        const double e = double{exact.values[i]};
+        const double d = double{image.values[i]} - e;
+        difference += d * d;
+        norm += e * e;
+    }
+    return difference / norm;
+}
+
+// From outside: the errors that are stated of a drag's images are those they have.
+TEST_F(SessionTest, FloatsWhileMovingHaveTheStatedErrors) {
+    start();
+    WebSocketClient client(port(), "/session/r?scene=tiny&images=moving-float");
+    double stated_squares = 0;
+    double true_squares = 0;
+    std::size_t moving = 0;
+    for (std::uint64_t revision = 1; revision <= 12; ++revision) {
+        client.send(json{{"type", "edit"},
+                         {"id", revision},
+                         {"patch",
+                          {{"budget", {{"coefficients", 3}}},
+                           {"background", {{"mode", "transparent"}}},
+                           {"rotation", {{"yaw_degrees", 67 * revision}}}}}});
+        const std::vector<MovingImage> images = images_until_exact(client, revision);
+        for (const MovingImage& shown : std::span(images).first(images.size() - 1)) {
+            stated_squares += std::pow(double{shown.header.relative_error}, 2);
+            true_squares += squared_relative_l2(shown.image, images.back().image);
+            ++moving;
+        }
+    }
+    ASSERT_GE(moving, 6U);
+    // One estimate varies, and the images of a dozen lights together hardly do.
+    EXPECT_LT(true_squares, 2 * stated_squares);
+    EXPECT_LT(stated_squares, 2 * true_squares);
+}
+
+TEST_F(SessionTest, EveryViewerHasADisplayOfHisOwn) {
+    start();
+    WebSocketClient dark(port(), "/session/r?scene=tiny");
+    static_cast<void>(dark.receive_message("snapshot"));
+    WebSocketClient plain(port(), "/session/r");
+    static_cast<void>(plain.receive_message("snapshot"));
+    static_cast<void>(dark.receive_settled(0));
+    static_cast<void>(plain.receive_settled(0));
+    dark.send(json{{"type", "display"}, {"exposure_stops", -20}});
+    dark.send(json{{"type", "display"}, {"exposure_stops", -21}});
+    EXPECT_EQ(dark.receive_message("error")["path"], "/exposure_stops");
+    dark.send(gain_edit(2));
+    const auto jpeg_of = [](WebSocketClient& client) {
+        while (const auto frame = client.receive()) {
+            if (frame->binary && frame->image_header().encoding == wire::ImageEncoding::jpeg) {
+                return frame->bytes;
+            }
+        }
+        return std::string();
+    };
+    const std::string of_dark = jpeg_of(dark);
+    const std::string of_plain = jpeg_of(plain);
+    EXPECT_NE(of_dark.substr(wire::kImageHeaderBytes),
+              of_plain.substr(wire::kImageHeaderBytes));
+    // A black picture takes next to nothing.
+    EXPECT_LT(of_dark.size(), of_plain.size());
+}
+
+// The room's display is an edit, but of nothing that is relit.
+TEST_F(SessionTest, AnEditOfTheDisplayLosesNoExactness) {
+    start();
+    WebSocketClient client(port(), "/session/r?scene=tiny");
+    static_cast<void>(client.receive_settled(0));
+    client.send(json{{"type", "edit"},
+                     {"id", 1},
+                     {"patch", {{"display", {{"exposure_stops", 1}, {"tone", "linear"}}}}}});
+    bool settled = false;
+    while (!settled) {
+        const auto frame = client.receive();
+        ASSERT_TRUE(frame.has_value());
+        if (!frame->binary) {
+            continue;
+        }
+        const wire::ImageHeader header = frame->image_header();
+        client.acknowledge(header.sequence);
+        EXPECT_TRUE(header.exact);
+        EXPECT_EQ(header.coefficients_applied, 0U);
+        settled = header.encoding == wire::ImageEncoding::half_planes && header.revision == 1;
+    }
 }
 
 TEST_F(SessionTest, ViewersAreCounted) {

@@ -27,6 +27,21 @@ TEST(ClientMessages, RoundTrip) {
     EXPECT_EQ(ack.sequence, 42U);
 }
 
+TEST(ClientMessages, ADisplayIsWhatIsChosenAndElseTheRooms) {
+    const DisplayChoice choice{.exposure_stops = {}, .tone = Tone::linear};
+    EXPECT_EQ(
+        std::get<DisplayChoice>(parse_client_message(text_from_message(choice), Limits{})),
+        choice);
+    EXPECT_EQ(std::get<DisplayChoice>(parse_client_message(R"({"type":"display"})", Limits{})),
+              DisplayChoice{});
+    const Display room{.exposure_stops = 3, .tone = Tone::filmic};
+    EXPECT_EQ(display_from_choice({}, room), room);
+    EXPECT_EQ(display_from_choice(choice, room),
+              (Display{.exposure_stops = 3, .tone = Tone::linear}));
+    EXPECT_EQ(display_from_choice({.exposure_stops = -1, .tone = {}}, room),
+              (Display{.exposure_stops = -1, .tone = Tone::filmic}));
+}
+
 TEST(ClientMessages, FaultsAreNamedByCodeAndPath) {
     struct Case {
         const char* text;
@@ -38,6 +53,11 @@ TEST(ClientMessages, FaultsAreNamedByCodeAndPath) {
              Case{"{}", ErrorCode::missing_field, "/type"},
              Case{R"({"type":1})", ErrorCode::wrong_type, "/type"},
              Case{R"({"type":"Edit"})", ErrorCode::unknown_type, "/type"},
+             Case{R"({"type":"display","exposure_stops":21})", ErrorCode::out_of_range,
+                  "/exposure_stops"},
+             Case{R"({"type":"display","tone":"Filmic"})", ErrorCode::out_of_range, "/tone"},
+             Case{R"({"type":"display","tone":1})", ErrorCode::wrong_type, "/tone"},
+             Case{R"({"type":"display","gain":1})", ErrorCode::unknown_field, "/gain"},
              Case{R"({"type":"edit","patch":{}})", ErrorCode::missing_field, "/id"},
              Case{R"({"type":"edit","id":-1,"patch":{}})", ErrorCode::out_of_range, "/id"},
              Case{R"({"type":"edit","id":9007199254740992,"patch":{}})",
