@@ -47,6 +47,12 @@ void EncodedBlock::append(const QuantisedCell& values) {
     offsets_.push_back(bytes_.size());
 }
 
+void EncodedBlock::append_as(CellTag tag, const QuantisedCell& values) {
+    tags_.push_back(tag);
+    append_cell_as(tag, values, bytes_);
+    offsets_.push_back(bytes_.size());
+}
+
 ShardHeader write_shard(const std::filesystem::path& path,
                         const ShardIdentity& identity,
                         const std::vector<EncodedBlock>& blocks) {

@@ -19,6 +19,8 @@ class EncodedBlock {
 
     // Appends the next column's cell.
     void append(const QuantisedCell& values);
+    // … in this encoding, which fits it.
+    void append_as(CellTag tag, const QuantisedCell& values);
     [[nodiscard]] bool complete() const { return tags_.size() == segment_count_; }
     [[nodiscard]] std::size_t segment_count() const { return segment_count_; }
 
