@@ -150,8 +150,8 @@ class HttpConnection {
                                   "the server's own origin or an allowed one");
         } else if (std::optional<HttpReply> fault = fault_of_handshake(parser)) {
             refusal = std::move(fault);
-        } else if (std::optional<HttpReply> fault = fault_of_session_request(request)) {
-            refusal = std::move(fault);
+        } else if (std::optional<HttpReply> unfit = fault_of_session_request(request)) {
+            refusal = std::move(unfit);
         } else if (!services_.readiness.ready()) {
             refusal =
                 bad_request(503, ErrorCode::shutting_down, "a server starting or draining",

@@ -41,7 +41,7 @@ TEST(Access, TakesTheTokenFromQueryOrHeader) {
 }
 
 TEST(Access, TakesTheTokenFromASubprotocol) {
-    const Access access("secret?>", OriginPolicy({}));
+    const Access access("secret?>", OriginPolicy({}), local());
     HttpRequest asking = request("/?token=other");
     const auto offers = [&](const char* offered) {
         asking.subprotocols = offered;

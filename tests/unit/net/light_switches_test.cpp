@@ -60,7 +60,7 @@ class LightSwitches : public testing::Test {
             Relighter::advance_together(std::span(&self, 1));
         }
         const Picture picture =
-            relighter.picture({}, wire::ImageEncoding::half_planes, /*jpeg_quality=*/80);
+            relighter.picture({}, {.displays = {}, .half_planes = true}, /*jpeg_quality=*/80);
         EXPECT_TRUE(picture.header.exact);
         std::vector<float> linear;
         for (std::size_t c = 0; c < 3; ++c) {
