@@ -109,7 +109,8 @@ nlohmann::json json_from_answer(const HttpAnswer& answer, const std::string& req
         try {
             return text::parse_strict_json(answer.body, kMaxAnswerBytes);
         } catch (const text::JsonError& error) {
-            throw ClientError(fmt::format("{}: the answer's body: {}", request, error.what()));
+            throw ClientError(
+                fmt::format("{}: the answer's body is not JSON: {}", request, error.what()));
         }
     }
     const std::string detail = detail_of(answer.body);

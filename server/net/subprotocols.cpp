@@ -30,6 +30,11 @@ std::optional<std::string_view> find_offered(std::string_view offered,
     return std::nullopt;
 }
 
+// What is offered, as it lies in the request.
+std::string_view text_of(const std::optional<std::string>& offered) {
+    return offered ? std::string_view(*offered) : std::string_view();
+}
+
 std::optional<std::string> bytes_from_base64url(std::string_view text) {
     std::string bytes;
     std::uint32_t bits = 0;
@@ -54,20 +59,20 @@ std::optional<std::string> bytes_from_base64url(std::string_view text) {
 }  // namespace
 
 bool offers_subprotocol(const std::optional<std::string>& offered) {
-    return find_offered(offered.value_or(""),
+    return find_offered(text_of(offered),
                         [](std::string_view protocol) { return protocol == kSubprotocol; })
         .has_value();
 }
 
 bool offers_other_versions_only(const std::optional<std::string>& offered) {
-    const auto other = find_offered(offered.value_or(""), [](std::string_view protocol) {
+    const auto other = find_offered(text_of(offered), [](std::string_view protocol) {
         return protocol.starts_with(kVersionPrefix);
     });
     return other && !offers_subprotocol(offered);
 }
 
 std::optional<std::string> token_from_subprotocols(const std::optional<std::string>& offered) {
-    const auto found = find_offered(offered.value_or(""), [](std::string_view protocol) {
+    const auto found = find_offered(text_of(offered), [](std::string_view protocol) {
         return protocol.starts_with(kTokenPrefix);
     });
     return found ? bytes_from_base64url(found->substr(kTokenPrefix.size())) : std::nullopt;

@@ -174,7 +174,13 @@ TEST_F(SessionTest, FloatsWhileMovingHaveTheStatedErrors) {
                          {"patch",
                           {{"budget", {{"coefficients", 3}}},
                            {"background", {{"mode", "transparent"}}},
-                           {"rotation", {{"yaw_degrees", 67 * revision}}}}}});
+                           {"lights",
+                            {{"key",
+                              {{"direction",
+                                {std::sin(1.1 * static_cast<double>(revision)), 0.4,
+                                 std::cos(1.1 * static_cast<double>(revision))}},
+                               {"angular_radius_degrees", 25},
+                               {"radiance", {9, 8, 7}}}}}}}}});
         const std::vector<MovingImage> images = images_until_exact(client, revision);
         for (const MovingImage& shown : std::span(images).first(images.size() - 1)) {
             stated_squares += std::pow(double{shown.header.relative_error}, 2);
