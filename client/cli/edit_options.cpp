@@ -1,10 +1,10 @@
 #include "client/cli/edit_options.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
-#include "base/program/usage.h"
-#include "base/text/strict_json.h"
 #include "client/cli/client_error.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/program/usage.h"
+#include "protocol/base/text/strict_json.h"
 #include "protocol/wire/session_patch.h"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 #include "client/cli/environment_upload.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
-#include "base/text/near_files.h"
-#include "base/text/near_names.h"
 #include "client/cli/client_error.h"
 #include "client/cli/http_client.h"
 #include "client/cli/server_names.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/near_files.h"
+#include "protocol/base/text/near_names.h"
 #include "protocol/wire/names.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "client/cli/http_client.h"
 
-#include "base/text/strict_json.h"
 #include "client/cli/client_error.h"
+#include "protocol/base/text/strict_json.h"
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>

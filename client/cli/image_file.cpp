@@ -1,9 +1,9 @@
 #include "client/cli/image_file.h"
 
-#include "base/files/atomic_file.h"
-#include "base/files/disk_room.h"
-#include "base/files/error.h"
 #include "client/cli/client_error.h"
+#include "protocol/base/files/atomic_file.h"
+#include "protocol/base/files/disk_room.h"
+#include "protocol/base/files/error.h"
 #include "protocol/wire/display.h"
 
 #include <OpenImageIO/filesystem.h>

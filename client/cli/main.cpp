@@ -1,6 +1,6 @@
 // relume: renders, plays scripted sessions and tests load against a running relume-server.
-#include "base/program/program.h"
 #include "client/cli/commands.h"
+#include "protocol/base/program/program.h"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>

@@ -1,4 +1,3 @@
-#include "base/program/usage.h"
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
 #include "client/cli/edit_options.h"
@@ -6,6 +5,7 @@
 #include "client/cli/image_file.h"
 #include "client/cli/server_names.h"
 #include "client/cli/settled_image.h"
+#include "protocol/base/program/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,3 @@
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
-#include "base/program/usage.h"
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
 #include "client/cli/edit_options.h"
@@ -9,6 +6,9 @@
 #include "client/cli/progress.h"
 #include "client/cli/sequence_player.h"
 #include "client/cli/server_names.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/program/usage.h"
 #include "protocol/wire/session_patch.h"
 
 #include <CLI/CLI.hpp>

@@ -1,9 +1,9 @@
 #include "client/cli/server_names.h"
 
-#include "base/text/near_names.h"
-#include "base/text/strict_json.h"
 #include "client/cli/client_error.h"
 #include "client/cli/http_client.h"
+#include "protocol/base/text/near_names.h"
+#include "protocol/base/text/strict_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

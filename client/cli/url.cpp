@@ -1,6 +1,6 @@
 #include "client/cli/url.h"
 
-#include "base/program/usage.h"
+#include "protocol/base/program/usage.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // relume-light-strip: the light of a session's state as a picture, for programs that know
 // nothing of sessions. What relume-bake relight makes of it is what relume-server must show.
-#include "base/files/regular_file.h"
-#include "base/program/program.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/program/program.h"
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/session_state.h"
 #include "server/light/environment_import.h"

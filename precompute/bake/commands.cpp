@@ -1,7 +1,5 @@
 #include "precompute/bake/commands.h"
 
-#include "base/program/usage.h"
-#include "base/text/near_files.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/error.h"
 #include "precompute/bake/framing.h"
@@ -14,6 +12,8 @@
 #include "precompute/bake/verdict.h"
 #include "precompute/scene/builtin.h"
 #include "precompute/scene/import.h"
+#include "protocol/base/program/usage.h"
+#include "protocol/base/text/near_files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

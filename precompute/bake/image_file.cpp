@@ -1,7 +1,7 @@
 #include "precompute/bake/image_file.h"
 
-#include "base/files/atomic_file.h"
 #include "precompute/bake/error.h"
+#include "protocol/base/files/atomic_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>

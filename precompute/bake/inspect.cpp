@@ -1,8 +1,8 @@
 #include "precompute/bake/inspect.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
-#include "base/text/strict_json.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/strict_json.h"
 #include "protocol/transport/column_summary.h"
 #include "protocol/transport/error.h"
 #include "protocol/transport/transport.h"

@@ -1,8 +1,8 @@
 // relume-bake: scene → transport directory; and what people ask about one.
-#include "base/program/program.h"
 #include "precompute/bake/command_line.h"
 #include "precompute/bake/commands.h"
 #include "precompute/bake/error.h"
+#include "protocol/base/program/program.h"
 
 #include <CLI/CLI.hpp>
 

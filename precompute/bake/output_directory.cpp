@@ -1,9 +1,9 @@
 #include "precompute/bake/output_directory.h"
 
-#include "base/files/disk_room.h"
-#include "base/files/error.h"
-#include "base/program/usage.h"
 #include "precompute/bake/bake.h"
+#include "protocol/base/files/disk_room.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/program/usage.h"
 #include "protocol/transport/format.h"
 #include "protocol/wire/names.h"
 

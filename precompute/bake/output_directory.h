@@ -2,8 +2,8 @@
 // find, a directory that is ours alone and takes what will be written.
 #pragma once
 
-#include "base/files/directory_lock.h"
 #include "precompute/bake/parameters.h"
+#include "protocol/base/files/directory_lock.h"
 
 #include <filesystem>
 #include <optional>

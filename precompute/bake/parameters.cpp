@@ -1,6 +1,6 @@
 #include "precompute/bake/parameters.h"
 
-#include "base/program/usage.h"
+#include "protocol/base/program/usage.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/manifest.h"

@@ -1,7 +1,7 @@
 #include "precompute/bake/relight.h"
 
-#include "base/files/regular_file.h"
 #include "precompute/bake/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
 #include "protocol/transport/receiver_basis.h"

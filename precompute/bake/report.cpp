@@ -1,6 +1,6 @@
 #include "precompute/bake/report.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/info.h>

@@ -1,9 +1,9 @@
 #include "precompute/bake/shard_notes.h"
 
-#include "base/files/atomic_file.h"
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
 #include "precompute/bake/error.h"
+#include "protocol/base/files/atomic_file.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/transport/checksum.h"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 #include "precompute/scene/import.h"
 
-#include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/gltf/import_gltf.h"
 #include "precompute/scene/imported_scene.h"
 #include "precompute/scene/obj/import_obj.h"
 #include "precompute/scene/ply/import_ply.h"
 #include "precompute/scene/shown_text.h"
+#include "protocol/base/text/near_files.h"
 
 #include <fmt/format.h>
 

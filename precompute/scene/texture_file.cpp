@@ -1,8 +1,8 @@
 // Image files to textures, through OpenImageIO.
-#include "base/text/near_files.h"
 #include "precompute/scene/error.h"
 #include "precompute/scene/srgb.h"
 #include "precompute/scene/texture.h"
+#include "protocol/base/text/near_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

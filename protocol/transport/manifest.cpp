@@ -1,8 +1,8 @@
 #include "protocol/transport/manifest.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
-#include "base/text/strict_json.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/strict_json.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 

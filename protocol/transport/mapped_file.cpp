@@ -1,7 +1,7 @@
 #include "protocol/transport/mapped_file.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/transport/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "protocol/transport/shard_writer.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 

@@ -1,7 +1,7 @@
 // Strict JSON from a peer: what text/strict_json.h refuses becomes a refusal of the wire.
 #pragma once
 
-#include "base/text/strict_json.h"
+#include "protocol/base/text/strict_json.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,7 +18,8 @@ using text::quote;
 // malformed_json for all else that parse_strict_json refuses, with line and column.
 [[nodiscard]] nlohmann::json parse_json(std::string_view json, std::size_t max_bytes);
 
-// `path` with one more step, escaped [RFC 6901 §3]. A key beyond 128 bytes is cut, and ends in "…".
+// `path` with one more step, escaped [RFC 6901 §3]. A key beyond 128 bytes is cut, and ends in
+// "…".
 [[nodiscard]] std::string pointer_step(std::string_view path, std::string_view key);
 
 }  // namespace relume::wire

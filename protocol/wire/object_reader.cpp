@@ -1,6 +1,6 @@
 #include "protocol/wire/object_reader.h"
 
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/names.h"

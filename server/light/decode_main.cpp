@@ -1,6 +1,6 @@
 // relume-decode: one image file from standard input, its texels to standard output, and nothing
 // else. Started by sandboxed_decoder.cpp, in a sandbox before it reads the first byte.
-#include "base/program/program.h"
+#include "protocol/base/program/program.h"
 #include "server/light/decoder_reply.h"
 #include "server/light/environment_error.h"
 #include "server/light/environment_import.h"

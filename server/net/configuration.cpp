@@ -1,7 +1,7 @@
 #include "server/net/configuration.h"
 
-#include "base/program/program.h"
-#include "base/text/near_names.h"
+#include "protocol/base/program/program.h"
+#include "protocol/base/text/near_names.h"
 
 #include <CLI/CLI.hpp>
 

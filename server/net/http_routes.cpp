@@ -1,6 +1,6 @@
 #include "server/net/http_routes.h"
 
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 #include "server/net/log_sink.h"
 #include "server/net/query_rules.h"
 

@@ -1,6 +1,6 @@
 #include "server/net/named_environments.h"
 
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 #include "protocol/wire/errors.h"
 
 #include <nlohmann/json.hpp>

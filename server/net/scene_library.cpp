@@ -1,7 +1,7 @@
 #include "server/net/scene_library.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/transport/transport.h"
 #include "protocol/wire/names.h"
 #include "server/net/folder_stamp.h"

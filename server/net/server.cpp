@@ -1,6 +1,6 @@
 #include "server/net/server.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "server/engine/band_images.h"
 #include "server/net/access.h"
 #include "server/net/decoder_check.h"

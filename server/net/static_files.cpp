@@ -1,6 +1,6 @@
 #include "server/net/static_files.h"
 
-#include "base/files/regular_file.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/transport/checksum.h"
 
 #include <fmt/format.h>

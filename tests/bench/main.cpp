@@ -1,5 +1,5 @@
 // relume-bench: the figures of the engine and the server, measured in one run.
-#include "base/program/program.h"
+#include "protocol/base/program/program.h"
 #include "tests/bench/figure.h"
 #include "tests/bench/report.h"
 #include "tests/bench/workbench.h"

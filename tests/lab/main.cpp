@@ -1,5 +1,5 @@
 // relume-lab: speed against accuracy on any scene, light and sequence.
-#include "base/program/program.h"
+#include "protocol/base/program/program.h"
 #include "tests/lab/commands/commands.h"
 
 #include <vector>

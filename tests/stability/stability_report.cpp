@@ -1,6 +1,6 @@
 #include "tests/stability/stability_report.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "tests/lab/report/html_page.h"
 #include "tests/stability/contact_sheet.h"
 

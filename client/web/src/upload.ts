@@ -93,15 +93,20 @@ export class Upload {
         try {
             const result = await this.api.upload(name, file, projection);
             await this.store.keep({ name: result.name, file, projection });
-            if (result.warnings.length > 0) {
+            const asks = projection === null && result.projection === "angular_map";
+            // What the page asks about is not remarked on as well.
+            const remarks = result.warnings.filter(
+                (warning) => !asks || !warning.includes("taken for an angular map"),
+            );
+            if (remarks.length > 0) {
                 this.notices.show({
                     tone: "warning",
                     title: `${result.name} is ready, with remarks`,
-                    details: result.warnings,
+                    details: remarks,
                 });
             }
             await this.listeners.uploaded(result);
-            if (projection === null) this.askForProjection(file, result);
+            if (asks) this.askForProjection(file, result);
         } catch (error) {
             if (!(error instanceof ApiError)) throw error;
             this.refuse(`${file.name}: ${error.message}`, error.found, error.expected);
@@ -113,7 +118,6 @@ export class Upload {
 
     /** A square picture may be a mirror ball, or a lat-long map that was made square. */
     private askForProjection(file: File, result: UploadResult): void {
-        if (result.projection !== "angular_map") return;
         this.notices.show({
             tone: "warning",
             title: `${result.name} is square and was read as an angular map (a light probe)`,

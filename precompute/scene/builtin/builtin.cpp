@@ -1,8 +1,8 @@
 #include "precompute/scene/builtin.h"
 
-#include "base/text/near_names.h"
 #include "precompute/scene/builtin/scenes.h"
 #include "precompute/scene/error.h"
+#include "protocol/base/text/near_names.h"
 
 #include <fmt/format.h>
 

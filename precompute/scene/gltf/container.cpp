@@ -1,8 +1,8 @@
 #include "precompute/scene/gltf/container.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
 #include "precompute/scene/shown_text.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // relume-lab pareto: error against cost for every method, on several scenes and lights.
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "tests/lab/charts/pareto_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"

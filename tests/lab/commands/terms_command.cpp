@@ -1,5 +1,5 @@
 // relume-lab terms: error against the number of terms of one light.
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "tests/lab/charts/terms_chart.h"
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"

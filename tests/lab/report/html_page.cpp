@@ -1,6 +1,6 @@
 #include "tests/lab/report/html_page.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>

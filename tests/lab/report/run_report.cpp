@@ -1,6 +1,6 @@
 #include "tests/lab/report/run_report.h"
 
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 #include "tests/lab/charts/coverage_sheet.h"
 #include "tests/lab/charts/picture_sheet.h"
 #include "tests/lab/charts/run_charts.h"

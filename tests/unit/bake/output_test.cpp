@@ -1,10 +1,10 @@
 // Where a bake writes, what it says at its end, and how it ends.
-#include "base/files/directory_lock.h"
-#include "base/program/program.h"
 #include "precompute/bake/commands.h"
 #include "precompute/bake/output_directory.h"
 #include "precompute/bake/progress_line.h"
 #include "precompute/bake/verdict.h"
+#include "protocol/base/files/directory_lock.h"
+#include "protocol/base/program/program.h"
 #include "tests/support/scratch_directory.h"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "client/cli/edit_options.h"
 
-#include "base/program/usage.h"
 #include "client/cli/client_error.h"
+#include "protocol/base/program/usage.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>

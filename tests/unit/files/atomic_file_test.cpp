@@ -1,7 +1,7 @@
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 
-#include "base/files/error.h"
-#include "base/files/regular_file.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>

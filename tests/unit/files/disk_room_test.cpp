@@ -1,8 +1,8 @@
-#include "base/files/disk_room.h"
+#include "protocol/base/files/disk_room.h"
 
-#include "base/files/atomic_file.h"
-#include "base/files/directory_lock.h"
-#include "base/files/error.h"
+#include "protocol/base/files/atomic_file.h"
+#include "protocol/base/files/directory_lock.h"
+#include "protocol/base/files/error.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "base/files/regular_file.h"
+#include "protocol/base/files/regular_file.h"
 
-#include "base/files/error.h"
+#include "protocol/base/files/error.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>

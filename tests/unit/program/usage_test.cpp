@@ -1,4 +1,4 @@
-#include "base/program/program.h"
+#include "protocol/base/program/program.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,4 +1,4 @@
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/text/strict_json.h"
+#include "protocol/base/text/strict_json.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // How every program begins and ends, so that all end alike.
 #pragma once
 
-#include "base/program/usage.h"
+#include "protocol/base/program/usage.h"
 
 #include <functional>
 

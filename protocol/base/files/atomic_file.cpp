@@ -1,7 +1,7 @@
-#include "base/files/atomic_file.h"
+#include "protocol/base/files/atomic_file.h"
 
-#include "base/files/descriptor.h"
-#include "base/files/error.h"
+#include "protocol/base/files/descriptor.h"
+#include "protocol/base/files/error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

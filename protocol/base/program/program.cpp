@@ -1,7 +1,7 @@
-#include "base/program/program.h"
+#include "protocol/base/program/program.h"
 
-#include "base/files/disk_room.h"
-#include "base/files/standard_output.h"
+#include "protocol/base/files/disk_room.h"
+#include "protocol/base/files/standard_output.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,6 +1,6 @@
-#include "base/files/standard_output.h"
+#include "protocol/base/files/standard_output.h"
 
-#include "base/files/error.h"
+#include "protocol/base/files/error.h"
 
 #include <fmt/format.h>
 

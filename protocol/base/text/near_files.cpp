@@ -1,6 +1,6 @@
-#include "base/text/near_files.h"
+#include "protocol/base/text/near_files.h"
 
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // A directory that one process at a time writes into.
 #pragma once
 
-#include "base/files/descriptor.h"
+#include "protocol/base/files/descriptor.h"
 
 #include <filesystem>
 

@@ -1,6 +1,6 @@
-#include "base/program/usage.h"
+#include "protocol/base/program/usage.h"
 
-#include "base/text/near_names.h"
+#include "protocol/base/text/near_names.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "base/files/disk_room.h"
+#include "protocol/base/files/disk_room.h"
 
-#include "base/files/descriptor.h"
-#include "base/files/error.h"
+#include "protocol/base/files/descriptor.h"
+#include "protocol/base/files/error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "base/files/directory_lock.h"
+#include "protocol/base/files/directory_lock.h"
 
-#include "base/files/error.h"
+#include "protocol/base/files/error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // error and not a wait without end.
 #pragma once
 
-#include "base/files/descriptor.h"
+#include "protocol/base/files/descriptor.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "base/text/strict_json.h"
+#include "protocol/base/text/strict_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

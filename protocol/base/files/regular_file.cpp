@@ -1,7 +1,7 @@
-#include "base/files/regular_file.h"
+#include "protocol/base/files/regular_file.h"
 
-#include "base/files/error.h"
-#include "base/text/near_files.h"
+#include "protocol/base/files/error.h"
+#include "protocol/base/text/near_files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
