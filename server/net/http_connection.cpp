@@ -42,10 +42,12 @@ constexpr std::size_t kReadBufferBytes = 64 * 1024;
 constexpr std::size_t kMaxDiscardedBytes = std::size_t{16} << 20;
 constexpr std::chrono::seconds kDiscardTimeout{5};
 
-// Scripts are the page's own files. Images and connections may be of another server, which the
-// page takes by `?server=`.
+// Scripts are the page's own files. Its controls (tweakpane) bring a style sheet of their own,
+// which is an element made by script. Images and connections may be of another server, which
+// the page takes by `?server=`.
 constexpr const char* kContentSecurityPolicy =
-    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self' "
+    "'unsafe-inline'; "
     "font-src 'self'; manifest-src 'self'; img-src 'self' data: blob: http: https:; "
     "connect-src 'self' http: https: ws: wss:; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
