@@ -139,7 +139,7 @@ Outcome provoke(Workbench& workbench) {
         {fmt::format("of {:.0f} images, those with a value not finite", tally.images),
          Sense::at_most, 0, tally.not_finite, "lights up to 1e10"},
         {"exact image off the dense product in double, relative L2", Sense::at_most, 1e-5,
-         largest_error, "DESIGN §3: what exact means"},
+         largest_error, "protocol/README.md: what exact means"},
     };
     return outcome;
 }

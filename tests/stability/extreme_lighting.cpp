@@ -111,7 +111,7 @@ Outcome provoke(Workbench& workbench) {
         outcome.findings.push_back(
             {fmt::format("{:.0e}: exact image off the dense product, relative L2", largest),
              is_precise ? Sense::at_most : Sense::reported, 1e-5, extremes.error,
-             is_precise ? "DESIGN §3: what exact means" : "products are denormal"});
+             is_precise ? "protocol/README.md: what exact means" : "products are denormal"});
         workbench.progress("extreme_lighting", 0.5);
     }
     outcome.findings.push_back({"lighting of 3e38 accepted", Sense::at_most, 0,

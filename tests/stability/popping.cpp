@@ -79,7 +79,7 @@ Outcome provoke(Workbench& workbench) {
     outcome.findings = {
         {"NWA-30: popping Σ‖Δ(B̃−B)‖²/Σ‖ΔB‖²", Sense::at_least, 1, nwa.energy, kFrozen},
         {"NWA-100: the same", Sense::at_most, 1, more.energy,
-         "DESIGN §7.3: under a hundred terms it shows"},
+         "README 7.3: under a hundred terms it shows"},
         {"NWA with all terms: the same", Sense::at_most, rounding * rounding, all.energy,
          "rounding of float sums alone: 2·10·ε‖B‖ an image"},
         {"PBI-30: the same, of NWA-30's", Sense::at_most, 1, pbi.energy / nwa.energy,

@@ -129,7 +129,7 @@ Outcome provoke(Workbench& workbench) {
                  Sense::at_most, 1, rest.beyond_triangle, "triangle inequality"});
             outcome.findings.push_back({name + ": error with all columns taken", Sense::at_most,
                                         1e-5, rest.end_error,
-                                        "DESIGN §3, before the full product"});
+                                        "README, before the full product"});
             if (priority == wire::Priority::area && rest.rising > 0) {
                 const float exposure = exposure_for(exact);
                 outcome.tiles.push_back(
