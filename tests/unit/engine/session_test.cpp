@@ -141,7 +141,7 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
     EXPECT_GT(basic.stated_error(), 100) << "the ghost of the light that is gone";
 }
 
-// DESIGN §7.4: a light of 10⁵ comes and goes, and nothing of it stays.
+// [tests/stability 7.4] A light of 10⁵ comes and goes, and nothing of it stays.
 TEST(Session, ABrightLightLeavesNothingBehindWhileEditsGoOn) {
     for (const Method method : {Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(1);

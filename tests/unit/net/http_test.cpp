@@ -1,4 +1,4 @@
-// What each path answers, and what Beast 1.81 must be kept from (DESIGN §8).
+// What each path answers, and what Beast 1.81 must be kept from.
 #include "tests/unit/net/hdr_file.h"
 #include "tests/unit/net/raw_socket.h"
 #include "tests/unit/net/running_server.h"
