@@ -5,124 +5,18 @@
 #include "protocol/base/text/strict_json.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
+#include "protocol/transport/manifest_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace relume::transport {
 namespace {
 
 using nlohmann::json;
 using Kind = basis::LightBasis::Kind;
-
-// Whether a value is a number that single precision holds.
-bool is_single(const json& value) {
-    return value.is_number() &&
-           std::abs(value.get<double>()) <= std::numeric_limits<float>::max();
-}
-
-// Reads members of one object, naming the place in every complaint.
-class ObjectReader {
-  public:
-    ObjectReader(const json& object, std::string place)
-        : object_(object), place_(std::move(place)) {
-        if (!object.is_object()) {
-            fail("", object.type_name(), "an object");
-        }
-    }
-
-    [[nodiscard]] const json& member(const char* key) const {
-        const auto found = object_.find(key);
-        if (found == object_.end()) {
-            fail(key, "missing", "a value");
-        }
-        return *found;
-    }
-    [[nodiscard]] ObjectReader object(const char* key) const {
-        return {member(key), place_ + "." + key};
-    }
-    [[nodiscard]] std::string string(const char* key) const {
-        const json& value = member(key);
-        if (!value.is_string()) {
-            fail(key, value.type_name(), "a string");
-        }
-        return value.get<std::string>();
-    }
-    // An object for people to read: its content is their business.
-    [[nodiscard]] json notes(const char* key) const {
-        const json& value = member(key);
-        if (!value.is_object()) {
-            fail(key, value.type_name(), "an object");
-        }
-        return value;
-    }
-    [[nodiscard]] std::uint64_t integer(const char* key,
-                                        std::uint64_t low,
-                                        std::uint64_t high) const {
-        const json& value = member(key);
-        if (!value.is_number_unsigned() || value.get<std::uint64_t>() < low ||
-            value.get<std::uint64_t>() > high) {
-            fail(key, text::quote(value), fmt::format("an integer from {} to {}", low, high));
-        }
-        return value.get<std::uint64_t>();
-    }
-    [[nodiscard]] std::uint32_t integer32(const char* key,
-                                          std::uint32_t low,
-                                          std::uint32_t high) const {
-        return static_cast<std::uint32_t>(integer(key, low, high));
-    }
-    [[nodiscard]] std::uint64_t digits(const char* key) const {
-        const auto value = checksum_from_text(string(key));
-        if (!value) {
-            fail(key, text::quote(string(key)), "16 hexadecimal digits");
-        }
-        return *value;
-    }
-    [[nodiscard]] double not_negative(const char* key) const {
-        const json& value = member(key);
-        if (!is_single(value) || value.get<double>() < 0) {
-            fail(key, text::quote(value), "a number that is not negative");
-        }
-        return value.get<double>();
-    }
-    [[nodiscard]] float number(const char* key) const { return number_from(member(key), key); }
-    [[nodiscard]] Imath::V3f vector(const char* key) const {
-        const json& value = member(key);
-        if (!value.is_array() || value.size() != 3) {
-            fail(key, text::quote(value), "three numbers");
-        }
-        return {number_from(value[0], key), number_from(value[1], key),
-                number_from(value[2], key)};
-    }
-    void expect_text(const char* key, std::string_view expected) const {
-        if (string(key) != expected) {
-            fail(key, text::quote(string(key)), expected);
-        }
-    }
-    void expect_integer(const char* key, std::uint64_t expected) const {
-        [[maybe_unused]] const std::uint64_t value = integer(key, expected, expected);
-    }
-    [[noreturn]] void fail(std::string_view key,
-                           std::string_view found,
-                           std::string_view expected) const {
-        throw TransportError(fmt::format("{}{}{}: found {}, expected {}", place_,
-                                         key.empty() ? "" : ".", key, found, expected));
-    }
-
-  private:
-    [[nodiscard]] float number_from(const json& value, const char* key) const {
-        if (!is_single(value)) {
-            fail(key, text::quote(value), "a finite number of single precision");
-        }
-        return value.get<float>();
-    }
-
-    const json& object_;
-    std::string place_;
-};
 
 // A name that means one file within the directory to every program: its parts are neither empty
 // nor "." nor "..", and no byte of it is a control character.
@@ -141,7 +35,7 @@ bool is_safe_relative(const std::string& name) {
                         [](const auto& part) { return part == ".." || part == "."; });
 }
 
-std::string file_name(const ObjectReader& record) {
+std::string file_name(const ManifestReader& record) {
     std::string name = record.string("file");
     if (!is_safe_relative(name)) {
         record.fail("file", text::quote(name),
@@ -161,7 +55,7 @@ json json_from(const FileRecord& record) {
             {"xxh3", text_from_checksum(record.checksum)}};
 }
 
-FileRecord file_record(const ObjectReader& record) {
+FileRecord file_record(const ManifestReader& record) {
     return {.file = file_name(record),
             .bytes = record.integer("bytes", 0, std::uint64_t{1} << 40),
             .checksum = record.digits("xxh3")};
@@ -175,7 +69,7 @@ json json_from(const ColourModel& colour) {
     return {{"channels", colour.channels}, {"matrix", matrix}};
 }
 
-ColourModel colour_model(const ObjectReader& object) {
+ColourModel colour_model(const ManifestReader& object) {
     ColourModel colour;
     colour.channels = object.integer32("channels", 1, kMaxChannels);
     if (colour.channels == 2) {
@@ -201,7 +95,7 @@ ColourModel colour_model(const ObjectReader& object) {
     return colour;
 }
 
-basis::LightBasis light_basis(const ObjectReader& object) {
+basis::LightBasis light_basis(const ManifestReader& object) {
     const std::string name = object.string("name");
     const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
                                              basis::kMaxFaceResolution);
@@ -230,7 +124,7 @@ json json_from(const CameraRecord& camera) {
 // Axes of single precision; what rounding leaves of right angles and unit lengths is far below.
 constexpr float kAxisTolerance = 1e-3F;
 
-void require_orthonormal(const ObjectReader& object, const CameraRecord& camera) {
+void require_orthonormal(const ManifestReader& object, const CameraRecord& camera) {
     const std::array<std::pair<const char*, Imath::V3f>, 3> axes{
         {{"right", camera.right}, {"up", camera.up}, {"forward", camera.forward}}};
     for (const auto& [name, axis] : axes) {
@@ -255,7 +149,7 @@ void require_orthonormal(const ObjectReader& object, const CameraRecord& camera)
     }
 }
 
-CameraRecord camera_record(const ObjectReader& object) {
+CameraRecord camera_record(const ManifestReader& object) {
     const CameraRecord camera{.eye = object.vector("eye"),
                               .right = object.vector("right"),
                               .up = object.vector("up"),
@@ -275,7 +169,7 @@ json json_from(const ShardRecord& shard) {
 }
 
 // Shards must cover the blocks in order and without a gap.
-std::vector<ShardRecord> shard_records(const ObjectReader& top,
+std::vector<ShardRecord> shard_records(const ManifestReader& top,
                                        std::uint32_t block_count,
                                        std::string_view file) {
     const json& list = top.member("shards");
@@ -285,7 +179,7 @@ std::vector<ShardRecord> shard_records(const ObjectReader& top,
     std::vector<ShardRecord> shards;
     std::uint32_t next_block = 0;
     for (const json& entry : list) {
-        const ObjectReader record(entry, fmt::format("{}: shards[{}]", file, shards.size()));
+        const ManifestReader record(entry, fmt::format("{}: shards[{}]", file, shards.size()));
         ShardRecord shard{
             .file = file_name(record),
             .bytes = record.integer("bytes", 0, std::uint64_t{1} << 40),
@@ -392,7 +286,7 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
             throw TransportError(fmt::format("{}: {}", file, error.what()));
         }
     }();
-    const ObjectReader top(parsed, std::string(file) + ": manifest");
+    const ManifestReader top(parsed, std::string(file) + ": manifest");
     top.expect_text("format", "relume-transport");
     top.expect_integer("version", kFormatVersion);
     top.expect_text("kind", kKind);
@@ -405,17 +299,17 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     manifest.light_basis = light_basis(top.object("basis"));
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
-    const ObjectReader sketch = top.object("sketch");
+    const ManifestReader sketch = top.object("sketch");
     manifest.stating_rows = sketch.integer32("stating_rows", kMinSketchRows, kMaxSketchRows);
     manifest.choosing_rows = sketch.integer32("choosing_rows", kMinSketchRows, kMaxSketchRows);
-    const ObjectReader files = top.object("files");
+    const ManifestReader files = top.object("files");
     manifest.columns = file_record(files.object("columns"));
     manifest.receivers = file_record(files.object("receivers"));
     manifest.sketch = file_record(files.object("sketch"));
     manifest.shards = shard_records(top, manifest.block_count(), file);
     manifest.camera = camera_record(top.object("camera"));
     if (parsed.contains("sampling_error")) {
-        const ObjectReader error = top.object("sampling_error");
+        const ManifestReader error = top.object("sampling_error");
         manifest.sampling_error = {.natural = error.not_negative("natural"),
                                    .sun = error.not_negative("sun")};
     }
