@@ -5,7 +5,7 @@
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/strict_json.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

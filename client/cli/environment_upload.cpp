@@ -5,9 +5,9 @@
 #include "client/cli/server_names.h"
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/names.h"
 #include "protocol/base/text/near_files.h"
 #include "protocol/base/text/near_names.h"
-#include "protocol/wire/names.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,10 +42,10 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 std::string known_name(const Url& server, const std::string& name) {
     const bool looks_like_a_file =
         name.ends_with(".hdr") || name.ends_with(".exr") || name.find('/') != std::string::npos;
-    if (looks_like_a_file || !wire::is_name(name)) {
+    if (looks_like_a_file || !text::is_name(name)) {
         throw ClientError(fmt::format("environment \"{}\": {}; expected a file or a name: {}",
                                       name, text::text_from_missing_file(name),
-                                      wire::kNameRule));
+                                      text::kNameRule));
     }
     const std::vector<std::string> known = environments_of(server);
     if (!has(known, name)) {
@@ -76,13 +76,13 @@ std::string upload_name(const fs::path& file,
     constexpr std::size_t kHashDigits = 16;
     std::string stem = file.stem().string();
     for (char& c : stem) {
-        if (!wire::is_name(std::string("x") + c)) {
+        if (!text::is_name(std::string("x") + c)) {
             c = '-';
         }
     }
     const std::size_t first = stem.find_first_not_of('.');
     stem = first == std::string::npos ? "environment" : stem.substr(first);
-    stem.resize(std::min(stem.size(), wire::kMaxNameLength - kHashDigits - 1));
+    stem.resize(std::min(stem.size(), text::kMaxNameLength - kHashDigits - 1));
     const std::string how =
         fmt::format("{}\n{}\n{}", reading.projection, reading.centre, reading.layer);
     const XXH64_hash_t seed = XXH3_64bits(how.data(), how.size());

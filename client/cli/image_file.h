@@ -3,7 +3,7 @@
 
 #include "protocol/wire/half_image.h"
 #include "protocol/wire/image_header.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <cstddef>
 #include <filesystem>

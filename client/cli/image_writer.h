@@ -3,7 +3,7 @@
 #pragma once
 
 #include "protocol/wire/image_header.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <condition_variable>
 #include <cstddef>

@@ -9,7 +9,7 @@
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/usage.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "client/cli/client_error.h"
 #include "client/cli/image_writer.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -248,7 +248,7 @@ class Player {
     asio::steady_timer deadline_;  // of what is awaited
     ImageWriter writer_;
     SequenceReport report_;
-    wire::SessionState state_;
+    wire::RoomState state_;
     wire::Limits limits_;
     std::optional<Clock::time_point> begun_;
     Clock::time_point next_tick_;

@@ -1,9 +1,9 @@
 #include "client/cli/sequence_script.h"
 
 #include "client/cli/client_error.h"
+#include "protocol/base/text/name_table.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
-#include "protocol/wire/name_table.h"
 #include "protocol/wire/object_reader.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using wire::ObjectReader;
 
-constexpr wire::NameTable<Ease, 4> kEaseNames({{
+constexpr text::NameTable<Ease, 4> kEaseNames({{
     {Ease::linear, "linear"},
     {Ease::slow_fast_slow, "slow-fast-slow"},
     {Ease::slow_fast, "slow-fast"},

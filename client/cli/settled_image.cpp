@@ -1,7 +1,7 @@
 #include "client/cli/settled_image.h"
 
 #include "client/cli/client_error.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>

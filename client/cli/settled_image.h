@@ -26,7 +26,7 @@ struct SettledImage {
     wire::ImageHeader header;
     wire::HalfImage image;
     wire::SceneSummary scene;
-    wire::SessionState state;                // what the image shows, and how to display it
+    wire::RoomState state;                   // what the image shows, and how to display it
     std::optional<double> edit_to_image_ms;  // until the settled image; none without an edit
 };
 

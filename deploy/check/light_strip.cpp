@@ -3,7 +3,7 @@
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/program.h"
 #include "protocol/wire/json_text.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/light/environment_import.h"
 #include "server/light/light_rig.h"
 
@@ -33,8 +33,8 @@ struct Arguments {
     fs::path output;
 };
 
-wire::SessionState read_state(const fs::path& path) {
-    return wire::session_state_from_json(wire::parse_json(
+wire::RoomState read_state(const fs::path& path) {
+    return wire::room_state_from_json(wire::parse_json(
         relume::files::read_regular_file(path, kMaxStateBytes), kMaxStateBytes));
 }
 
@@ -55,7 +55,7 @@ std::shared_ptr<const light::PrefilteredEnvironment> find_environment(
                     name, arguments.environments.string()));
 }
 
-light::LightRig rig_from(const wire::SessionState& state, const Arguments& arguments) {
+light::LightRig rig_from(const wire::RoomState& state, const Arguments& arguments) {
     light::LightRig rig;
     rig.environment = find_environment(arguments, state.environment.name);
     if (state.blend.name) {

@@ -4,8 +4,8 @@
 #include "protocol/base/files/disk_room.h"
 #include "protocol/base/files/error.h"
 #include "protocol/base/program/usage.h"
+#include "protocol/base/text/names.h"
 #include "protocol/transport/format.h"
-#include "protocol/wire/names.h"
 
 #include <fmt/format.h>
 
@@ -87,9 +87,9 @@ fs::path transport_directory_from_option(const std::string& text) {
     if (path.extension() != kSuffix) {
         refuse(fmt::format("a name that ends in {}", path.extension().string()));
     }
-    if (!wire::is_name(path.stem().string())) {
+    if (!text::is_name(path.stem().string())) {
         refuse(fmt::format("the name \"{}\", which no server serves; a name is {}",
-                           path.stem().string(), wire::kNameRule));
+                           path.stem().string(), text::kNameRule));
     }
     return path;
 }

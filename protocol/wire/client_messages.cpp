@@ -2,7 +2,7 @@
 #include "protocol/wire/messages.h"
 #include "protocol/wire/object_reader.h"
 #include "protocol/wire/patch_section.h"
-#include "protocol/wire/session_names.h"
+#include "protocol/wire/room_names.h"
 
 #include <nlohmann/json.hpp>
 

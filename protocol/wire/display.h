@@ -2,7 +2,7 @@
 // §3.2). The reference; a server or page may table or vectorise it.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <cstdint>
 

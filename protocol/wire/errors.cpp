@@ -1,11 +1,11 @@
 #include "protocol/wire/errors.h"
 
-#include "protocol/wire/name_table.h"
+#include "protocol/base/text/name_table.h"
 
 namespace relume::wire {
 namespace {
 
-constexpr NameTable<ErrorCode, 14> kErrorNames({{
+constexpr text::NameTable<ErrorCode, 14> kErrorNames({{
     {ErrorCode::malformed_json, "malformed_json"},
     {ErrorCode::unknown_type, "unknown_type"},
     {ErrorCode::unknown_field, "unknown_field"},
@@ -22,7 +22,7 @@ constexpr NameTable<ErrorCode, 14> kErrorNames({{
     {ErrorCode::internal, "internal"},
 }});
 
-constexpr NameTable<CloseCode, 11> kCloseReasons({{
+constexpr text::NameTable<CloseCode, 11> kCloseReasons({{
     {CloseCode::bye, "bye"},
     {CloseCode::shutting_down, "shutting down"},
     {CloseCode::not_text, "binary frame from a client"},

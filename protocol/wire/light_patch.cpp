@@ -1,8 +1,8 @@
 #include "protocol/wire/light_patch.h"
 
+#include "protocol/base/text/names.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
-#include "protocol/wire/names.h"
 #include "protocol/wire/patch_section.h"
 
 #include <algorithm>
@@ -72,9 +72,9 @@ json patch_lights(std::map<std::string, AreaLight>& lights,
     json normalised = json::object();
     for (const auto& [id, light] : patch.items()) {
         const std::string light_path = pointer_step(path, id);
-        if (!is_name(id)) {
+        if (!text::is_name(id)) {
             throw WireError(ErrorCode::out_of_range, light_path, quote(json(id)),
-                            "an id: " + std::string(kNameRule));
+                            "an id: " + std::string(text::kNameRule));
         }
         if (light.is_null()) {
             // What is not there cannot be removed, and clients need not hear of it.

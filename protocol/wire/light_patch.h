@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/wire/limits.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <nlohmann/json_fwd.hpp>
 

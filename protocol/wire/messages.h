@@ -3,8 +3,8 @@
 
 #include "protocol/wire/errors.h"
 #include "protocol/wire/limits.h"
+#include "protocol/wire/room_state.h"
 #include "protocol/wire/scene_summary.h"
-#include "protocol/wire/session_state.h"
 
 #include <nlohmann/json.hpp>
 
@@ -41,7 +41,7 @@ struct Snapshot {
     std::string room;
     SceneSummary scene;
     std::uint64_t revision = 0;
-    SessionState state;
+    RoomState state;
     std::uint32_t viewers = 0;
     Limits limits;
 };

@@ -1,9 +1,9 @@
 #include "protocol/wire/object_reader.h"
 
+#include "protocol/base/text/names.h"
 #include "protocol/base/text/near_names.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
-#include "protocol/wire/names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -117,11 +117,13 @@ std::string string_from_json(const json& value, const std::string& path) {
 }
 
 std::string name_from_json(const json& value, const std::string& path) {
-    return ruled_string_from_json(value, path, is_name, "a name: " + std::string(kNameRule));
+    return ruled_string_from_json(value, path, text::is_name,
+                                  "a name: " + std::string(text::kNameRule));
 }
 
 std::string label_from_json(const json& value, const std::string& path) {
-    return ruled_string_from_json(value, path, is_label, "a label: " + std::string(kLabelRule));
+    return ruled_string_from_json(value, path, text::is_label,
+                                  "a label: " + std::string(text::kLabelRule));
 }
 
 ObjectReader::ObjectReader(const json& value, std::string path)

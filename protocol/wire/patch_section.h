@@ -1,9 +1,9 @@
 // One object of an edit's patch: reads fields into the state and records them as normalised.
 #pragma once
 
+#include "protocol/base/text/name_table.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/json_text.h"
-#include "protocol/wire/name_table.h"
 #include "protocol/wire/object_reader.h"
 
 #include <Imath/ImathVec.h>
@@ -49,7 +49,7 @@ class PatchSection {
     // A label as names.h allows; null takes it away.
     void take_label(const char* key, std::optional<std::string>& target);
     template <typename Enum, std::size_t Count>
-    void take_word(const char* key, const NameTable<Enum, Count>& names, Enum& target) {
+    void take_word(const char* key, const text::NameTable<Enum, Count>& names, Enum& target) {
         if (const nlohmann::json* value = reader_.find(key)) {
             const std::string path = reader_.path_to(key);
             const auto word = names.value(string_from_json(*value, path));

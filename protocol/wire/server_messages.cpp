@@ -49,7 +49,7 @@ Snapshot snapshot_from(ObjectReader& reader) {
     return {.room = name_from_json(reader.require("room"), "/room"),
             .scene = scene_summary_from_json(reader.require("scene"), "/scene"),
             .revision = integer_from(reader, "revision"),
-            .state = session_state_from_json(reader.require("state")),
+            .state = room_state_from_json(reader.require("state")),
             .viewers = count_from(reader, "viewers"),
             .limits = limits_from_json(reader.require("limits"))};
 }

@@ -301,7 +301,7 @@ void BandImages::take_measured_norms(std::uint32_t images) {
 
 // Triangle inequality; of the columns as they are stored.
 double BandImages::norm_of(std::span<const ColumnChange> changes) const {
-    const std::span<const float> norms = scene_->weights(wire::Priority::transport);
+    const std::span<const float> norms = scene_->weights(relighting::Priority::transport);
     const std::size_t count = scene_->coefficient_count();
     double sum = 0;
     for (const ColumnChange& change : changes) {

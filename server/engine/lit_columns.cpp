@@ -22,7 +22,7 @@ void LitColumns::set(std::span<const float> lighting) {
 }
 
 void LitColumns::set_nearly(std::span<const float> lighting, double negligible) {
-    const std::span<const float> weights = scene_->weights(wire::Priority::transport);
+    const std::span<const float> weights = scene_->weights(relighting::Priority::transport);
     for (std::size_t i = 0; i < norms_.size(); ++i) {
         norms_[i] = lighting[i] * weights[i];
     }

@@ -4,17 +4,17 @@ namespace relume::engine {
 
 const Plan& Planner::begin(const Lighting& lighting,
                            const LitColumns& lit,
-                           const wire::Strategy& strategy,
+                           const relighting::Strategy& strategy,
                            const SelectionBudget& budget) {
     ranking_.rank(*scene_, lighting, scene_->weights(strategy.priority));
-    if (strategy.method == wire::Method::guarded) {
+    if (strategy.method == relighting::Method::guarded) {
         return guard_.decide(lighting, lit, ranking_, budget);
     }
     guard_.forget();
     plan_.bands_to_reset = 0;
-    if (strategy.method == wire::Method::pbi) {
+    if (strategy.method == relighting::Method::pbi) {
         plan_.bands_to_reset = ranking_.bands_nearer_from_nothing();
-    } else if (strategy.method == wire::Method::nwa) {
+    } else if (strategy.method == relighting::Method::nwa) {
         // Every image of the non-linear approximation starts from nothing [Ng03 §4].
         plan_.bands_to_reset = (1U << scene_->band_count()) - 1;
     }
@@ -23,7 +23,7 @@ const Plan& Planner::begin(const Lighting& lighting,
 }
 
 const Plan& Planner::go_on(const Lighting& lighting,
-                           const wire::Strategy& strategy,
+                           const relighting::Strategy& strategy,
                            const SelectionBudget& budget) {
     ranking_.rank(*scene_, lighting, scene_->weights(strategy.priority));
     plan_.bands_to_reset = 0;

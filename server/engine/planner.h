@@ -1,7 +1,7 @@
 // How the engine chooses: what the next image changes, by the session's strategy.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/guard.h"
 #include "server/engine/lighting.h"
 #include "server/engine/plan.h"
@@ -19,11 +19,11 @@ class Planner {
     // then the most important differences. Valid until the next call.
     [[nodiscard]] const Plan& begin(const Lighting& lighting,
                                     const LitColumns& lit,
-                                    const wire::Strategy& strategy,
+                                    const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
     // While the lighting rests: more of what is left.
     [[nodiscard]] const Plan& go_on(const Lighting& lighting,
-                                    const wire::Strategy& strategy,
+                                    const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
 
     // The plan has been carried out on L̃.

@@ -25,13 +25,13 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
         const std::uint32_t bytes = transport_->column_bytes(j);
         for (std::uint32_t c = 0; c < kColours; ++c) {
             const std::size_t place = c * count + j;
-            weights_[static_cast<std::size_t>(wire::Priority::none)][place] = 1;
-            weights_[static_cast<std::size_t>(wire::Priority::area)][place] =
+            weights_[static_cast<std::size_t>(relighting::Priority::none)][place] = 1;
+            weights_[static_cast<std::size_t>(relighting::Priority::area)][place] =
                 std::exp2(-light_basis().octave_from_band(band));
             const float norm = std::sqrt(transport_->energy(j, c));
-            weights_[static_cast<std::size_t>(wire::Priority::transport)][place] = norm;
+            weights_[static_cast<std::size_t>(relighting::Priority::transport)][place] = norm;
             // A column without bytes is zero and gains nothing.
-            weights_[static_cast<std::size_t>(wire::Priority::benefit)][place] =
+            weights_[static_cast<std::size_t>(relighting::Priority::benefit)][place] =
                 bytes == 0 ? 0 : norm / std::sqrt(static_cast<float>(bytes));
         }
     }

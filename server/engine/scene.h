@@ -2,8 +2,8 @@
 #pragma once
 
 #include "protocol/basis/cubemap_projection.h"
+#include "protocol/relighting/strategy.h"
 #include "protocol/transport/transport.h"
-#include "protocol/wire/session_state.h"
 #include "server/engine/band_chunk.h"
 #include "server/engine/strip_matrix.h"
 
@@ -78,7 +78,7 @@ class Scene {
     //              area-weighted]; for spherical harmonics the inverse of the tolerance, README
     //   transport  ‖T_j‖ of the colour                    [Ng03 §4.1, transport-weighted]
     //   benefit    ‖T_j‖ / √(bytes of the column): squared, what the image gains per byte read
-    [[nodiscard]] std::span<const float> weights(wire::Priority priority) const {
+    [[nodiscard]] std::span<const float> weights(relighting::Priority priority) const {
         return weights_[static_cast<std::size_t>(priority)];
     }
 

@@ -53,7 +53,7 @@ class Stopwatch {
 
 }  // namespace
 
-Session::Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy)
+Session::Session(std::shared_ptr<const Scene> scene, relighting::Strategy strategy)
     : scene_(std::move(scene)),
       strategy_(strategy),
       lighting_(*scene_),
@@ -74,12 +74,12 @@ double Session::stated_error() const {
     return exact_ ? 0 : error_.relative_l2();
 }
 
-bool Session::at_rest(const wire::Budget& budget) const {
+bool Session::at_rest(const relighting::Budget& budget) const {
     return exact_ || (!lighting_is_new_ && budget.target_error > 0 &&
                       error_.relative_l2() <= budget.target_error);
 }
 
-StepReport Session::advance(const wire::Budget& budget) {
+StepReport Session::advance(const relighting::Budget& budget) {
     SessionTurn turn{.session = this, .budget = budget, .report = {}};
     advance_together({&turn, 1});
     return turn.report;

@@ -1,7 +1,8 @@
 // One incremental relighting: the lighting asked for, the approximation shown, and the image.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/band_images.h"
 #include "server/engine/cost_model.h"
 #include "server/engine/error_estimate.h"
@@ -35,7 +36,7 @@ class Session;
 // A session's part in a step that several take together.
 struct SessionTurn {
     Session* session = nullptr;
-    wire::Budget budget;  // milliseconds: of the whole step, all sessions in it
+    relighting::Budget budget;  // milliseconds: of the whole step, all sessions in it
     // Of one call, whatever the budget, by what the work has been taking: what is left of the
     // budget then is for the caller to give again.
     double ceiling_milliseconds = std::numeric_limits<double>::infinity();
@@ -47,14 +48,14 @@ struct SessionTurn {
 // on who was relit together; an exact image depends on the lighting alone, to the last bit.
 class Session {
   public:
-    Session(std::shared_ptr<const Scene> scene, wire::Strategy strategy);
+    Session(std::shared_ptr<const Scene> scene, relighting::Strategy strategy);
 
     // Target lighting: coefficients of radiance in the basis of the scene, planar [3][N], all
     // of at most kLargestCoefficient (throws std::invalid_argument otherwise, or when the count
     // is wrong; the session is unchanged).
     void set_lighting(std::span<const float> coefficients);
     // Takes effect with the next step. The approximation is kept.
-    void set_strategy(wire::Strategy strategy) { strategy_ = strategy; }
+    void set_strategy(relighting::Strategy strategy) { strategy_ = strategy; }
 
     // One image's worth of work. New lighting: the method's resets, then the most important
     // differences between target and approximation within the budget. While the lighting rests:
@@ -62,7 +63,7 @@ class Session {
     // product* in slices of the budget, after which the image is exact and has forgotten its
     // history. Where the full product fits into one image's milliseconds, every image is
     // exact. Costs nothing when exact.
-    StepReport advance(const wire::Budget& budget);
+    StepReport advance(const relighting::Budget& budget);
 
     // The same for each of several sessions of one scene, no two the same, in one sweep over
     // the transport: what they have in common is read and decoded once. Milliseconds are shared
@@ -75,7 +76,7 @@ class Session {
 
     // True when `advance` has nothing left to do under this budget: exact, or the target error
     // is met.
-    [[nodiscard]] bool at_rest(const wire::Budget& budget) const;
+    [[nodiscard]] bool at_rest(const relighting::Budget& budget) const;
     [[nodiscard]] bool exact() const { return exact_; }
     // A full product of a new lighting was begun under a ceiling and is not done: until then
     // image and stated error are of the lighting before.
@@ -106,7 +107,7 @@ class Session {
     };
     // A session's part of what all sessions of a step may take.
     struct Share {
-        wire::Budget budget;
+        relighting::Budget budget;
         std::size_t sessions = 1;  // among which its milliseconds are divided
         double ceiling_milliseconds = std::numeric_limits<double>::infinity();
     };
@@ -138,7 +139,7 @@ class Session {
     void remove_drift(StepReport& report);
 
     std::shared_ptr<const Scene> scene_;
-    wire::Strategy strategy_;
+    relighting::Strategy strategy_;
     Lighting lighting_;
     LitColumns lit_;  // of what the sketches were last made from
     Planner planner_;

@@ -2,7 +2,7 @@
 // gives, at the price of one load.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/net/display_kernel.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "server/net/environment_library.h"
 
+#include "protocol/base/text/names.h"
 #include "protocol/wire/errors.h"
-#include "protocol/wire/names.h"
 #include "server/light/procedural_environment.h"
 
 #include <fmt/format.h>
@@ -71,9 +71,9 @@ void EnvironmentLibrary::add_folder(const fs::path& folder, light::MapCentre cen
 
 void EnvironmentLibrary::add_file(const fs::path& file, light::MapCentre centre) {
     const std::string name = file.stem().string();
-    if (!wire::is_name(name)) {
+    if (!text::is_name(name)) {
         throw std::runtime_error(
-            fmt::format("the name of an environment must be {}", wire::kNameRule));
+            fmt::format("the name of an environment must be {}", text::kNameRule));
     }
     if (find(name)) {
         throw std::runtime_error(fmt::format("there is an environment {} already", name));

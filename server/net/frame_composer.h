@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/wire/half_image.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/engine/session.h"
 #include "server/light/light_rig.h"
 #include "server/net/display_table.h"

@@ -1,6 +1,6 @@
 #include "server/net/http_connection.h"
 
-#include "protocol/wire/names.h"
+#include "protocol/base/text/names.h"
 #include "server/net/query_rules.h"
 #include "server/net/request_head.h"
 #include "server/net/websocket_connection.h"
@@ -144,9 +144,9 @@ class HttpConnection {
     asio::awaitable<bool> upgrade(HeaderParser& parser, HttpRequest request) {
         const std::optional<std::string> room = HttpRoutes::room_of(request);
         std::optional<HttpReply> refusal;
-        if (!room || !wire::is_name(*room)) {
+        if (!room || !text::is_name(*room)) {
             refusal = bad_request(404, ErrorCode::not_found, request.target.path,
-                                  fmt::format("/session/ROOM, ROOM being {}", wire::kNameRule));
+                                  fmt::format("/session/ROOM, ROOM being {}", text::kNameRule));
         } else if (!services_.access.allows_origin(request)) {
             refusal = bad_request(403, ErrorCode::unsupported, *request.origin,
                                   "the server's own origin or an allowed one");

@@ -1,7 +1,7 @@
 // Which images of a room a viewer asks for.
 #pragma once
 
-#include "protocol/wire/name_table.h"
+#include "protocol/base/text/name_table.h"
 
 #include <cstdint>
 
@@ -13,7 +13,7 @@ enum class ImageInterest : std::uint8_t {
     moving_float,  // half floats always
 };
 
-inline constexpr wire::NameTable<ImageInterest, 3> kImageInterestNames({{
+inline constexpr text::NameTable<ImageInterest, 3> kImageInterestNames({{
     {ImageInterest::all, "all"},
     {ImageInterest::settled, "settled"},
     {ImageInterest::moving_float, "moving-float"},

@@ -11,7 +11,7 @@
 namespace relume::net {
 
 NamedEnvironments environments_after(const NamedEnvironments& before,
-                                     const wire::SessionState& state,
+                                     const wire::RoomState& state,
                                      const nlohmann::json& patch,
                                      const EnvironmentLibrary& library) {
     const auto names_one = [&patch](const char* key) {

@@ -1,7 +1,7 @@
 // The environments that a session's state names.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/net/environment_library.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,7 +22,7 @@ struct NamedEnvironments {
 // it was; an upload that it names again is taken in its latest version. Throws
 // wire::WireError (unknown_name).
 [[nodiscard]] NamedEnvironments environments_after(const NamedEnvironments& before,
-                                                   const wire::SessionState& state,
+                                                   const wire::RoomState& state,
                                                    const nlohmann::json& patch,
                                                    const EnvironmentLibrary& library);
 

@@ -1,6 +1,6 @@
 #include "server/net/outbox.h"
 
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <utility>
 

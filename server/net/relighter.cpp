@@ -30,7 +30,7 @@ void blend(double& mean, double newest) {
     mean += kNewest * (newest - mean);
 }
 
-bool same_rig(const wire::SessionState& a, const wire::SessionState& b) {
+bool same_rig(const wire::RoomState& a, const wire::RoomState& b) {
     return a.environment == b.environment && a.blend == b.blend && a.rotation == b.rotation &&
            a.lights == b.lights;
 }
@@ -67,11 +67,11 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
     : scene_(std::move(scene)),
       metrics_(metrics),
       ceiling_ms_(milliseconds(ceiling)),
-      session_(scene_->engine, wire::Strategy{}),
+      session_(scene_->engine, relighting::Strategy{}),
       composer_(std::make_shared<FrameComposer>(
           scene_->sky, scene_->engine->image().width, scene_->engine->image().height)) {}
 
-std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& state,
+std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
                                                      const NamedEnvironments& environments) {
     const Clock::time_point begin = Clock::now();
     std::vector<wire::ErrorMessage> problems;
@@ -99,7 +99,7 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::SessionState& s
     return problems;
 }
 
-void Relighter::set_rig(const wire::SessionState& state,
+void Relighter::set_rig(const wire::RoomState& state,
                         const NamedEnvironments& environments,
                         std::vector<wire::ErrorMessage>& problems) {
     const std::uint32_t n = scene_->engine->face_resolution();
@@ -151,8 +151,8 @@ void Relighter::stepped(const engine::StepReport& step, Clock::duration spent) {
     image_changed_ = image_changed_ || step.image_changed;
 }
 
-wire::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
-    wire::Budget budget = state_->budget;
+relighting::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
+    relighting::Budget budget = state_->budget;
     if (budget.milliseconds) {
         // All of them are lit, composed and encoded on the same threads.
         const double rounds = std::max(
@@ -184,8 +184,8 @@ bool Relighter::budget_is_spent() const {
            (whole <= ceiling_ms_ || whole - spent_ms_ < kNotWorthASlice * ceiling_ms_);
 }
 
-wire::Budget Relighter::budget_for_slice(std::size_t sessions) const {
-    wire::Budget budget = budget_for_relighting(sessions);
+relighting::Budget Relighter::budget_for_slice(std::size_t sessions) const {
+    relighting::Budget budget = budget_for_relighting(sessions);
     if (budget.coefficients && spent_columns_ < *budget.coefficients) {
         *budget.coefficients -= spent_columns_;
     }

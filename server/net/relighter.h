@@ -1,8 +1,9 @@
 // What one room computes: its state as light, the light through the engine, the image composed.
 #pragma once
 
+#include "protocol/relighting/budget.h"
 #include "protocol/wire/messages.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/engine/session.h"
 #include "server/light/light_cubemap.h"
 #include "server/light/light_rig.h"
@@ -39,7 +40,7 @@ class Relighter {
 
     // What the image is to show from now on; only what differs from before is computed anew. An
     // environment that cannot be decoded is black, and named in the result.
-    std::vector<wire::ErrorMessage> set_state(const wire::SessionState& state,
+    std::vector<wire::ErrorMessage> set_state(const wire::RoomState& state,
                                               const NamedEnvironments& environments);
 
     // One image's worth of relighting for each, all of one scene and not at rest, in one sweep:
@@ -66,16 +67,16 @@ class Relighter {
     void takes_besides(double milliseconds) { beside_ms_ = milliseconds; }
 
   private:
-    void set_rig(const wire::SessionState& state,
+    void set_rig(const wire::RoomState& state,
                  const NamedEnvironments& environments,
                  std::vector<wire::ErrorMessage>& problems);
     void stepped(const engine::StepReport& step, Clock::duration spent);
     void compose(const ImageForms& forms, bool settled);
     // For relighting, of all the milliseconds that so many sessions take together.
-    [[nodiscard]] wire::Budget budget_for_relighting(std::size_t sessions) const;
+    [[nodiscard]] relighting::Budget budget_for_relighting(std::size_t sessions) const;
     // Of that budget, what the slices since the state was set have left; all of it again once
     // they have left none.
-    [[nodiscard]] wire::Budget budget_for_slice(std::size_t sessions) const;
+    [[nodiscard]] relighting::Budget budget_for_slice(std::size_t sessions) const;
 
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
@@ -83,7 +84,7 @@ class Relighter {
     engine::Session session_;
     std::shared_ptr<FrameComposer> composer_;
 
-    std::optional<wire::SessionState> state_;
+    std::optional<wire::RoomState> state_;
     NamedEnvironments environments_;
     light::LightRig rig_;
     light::LightCubemap cubemap_;

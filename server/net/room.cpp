@@ -1,6 +1,6 @@
 #include "server/net/room.h"
 
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -86,7 +86,7 @@ void Room::edit(const Outbox& author, const wire::Edit& edit, Clock::time_point 
         throw wire::WireError(wire::ErrorCode::shutting_down, "", "an edit",
                               "no edits while the server shuts down");
     }
-    wire::SessionState next = state_;
+    wire::RoomState next = state_;
     wire::Change change{.revision = revision_ + 1,
                         .patch = wire::apply_patch(next, edit.patch, options_.limits),
                         .edit_id = {}};

@@ -3,7 +3,7 @@
 
 #include "protocol/wire/limits.h"
 #include "protocol/wire/messages.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/net/clock.h"
 #include "server/net/environment_library.h"
 #include "server/net/frame_encoder.h"
@@ -119,7 +119,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     const RoomOptions options_;
 
     mutable std::mutex mutex_;
-    wire::SessionState state_;
+    wire::RoomState state_;
     NamedEnvironments environments_;
     std::uint64_t revision_ = 0;
     std::vector<SharedOutbox> viewers_;

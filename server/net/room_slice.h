@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/wire/messages.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 #include "server/net/clock.h"
 #include "server/net/picture.h"
 #include "server/net/relighter.h"
@@ -16,7 +16,7 @@ namespace relume::net {
 // Copied from the room under its lock.
 struct RoomSlice {
     bool state_changed = false;
-    wire::SessionState state;  // set if it changed
+    wire::RoomState state;  // set if it changed
     NamedEnvironments environments;
     std::uint64_t revision = 0;  // of the state that is relit
     Clock::time_point begun_at;

@@ -2,8 +2,8 @@
 
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/names.h"
 #include "protocol/transport/transport.h"
-#include "protocol/wire/names.h"
 #include "server/net/folder_stamp.h"
 
 #include <fmt/format.h>
@@ -109,9 +109,9 @@ bool SceneLibrary::follow(const fs::path& directory) {
 
 void SceneLibrary::open(const fs::path& directory) {
     const std::string name = directory.stem().string();
-    if (!wire::is_name(name)) {
+    if (!text::is_name(name)) {
         throw std::runtime_error(
-            fmt::format("the name of a scene must be {}", wire::kNameRule));
+            fmt::format("the name of a scene must be {}", text::kNameRule));
     }
     std::shared_ptr<const transport::Transport> transport =
         transport::Transport::open(directory);

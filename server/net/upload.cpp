@@ -1,6 +1,6 @@
 #include "server/net/upload.h"
 
-#include "protocol/wire/names.h"
+#include "protocol/base/text/names.h"
 #include "server/light/environment_error.h"
 #include "server/net/query_rules.h"
 
@@ -45,17 +45,18 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
         return error_reply(401, WireError(ErrorCode::unsupported, "token",
                                           "no or another token", "the server's token"));
     }
-    if (auto fault = fault_of_query(request.target, {"name", "projection", "centre", "layer", "token"})) {
+    if (auto fault = fault_of_query(request.target,
+                                    {"name", "projection", "centre", "layer", "token"})) {
         return *std::move(fault);
     }
     const std::optional<std::string> name = request.target.parameter("name");
     if (!name) {
         return error_reply(400, WireError(ErrorCode::missing_field, "name", "nothing",
-                                          std::string(wire::kNameRule)));
+                                          std::string(text::kNameRule)));
     }
-    if (!wire::is_name(*name)) {
+    if (!text::is_name(*name)) {
         return error_reply(400, WireError(ErrorCode::out_of_range, "name", *name,
-                                          std::string(wire::kNameRule)));
+                                          std::string(text::kNameRule)));
     }
     Upload upload{.name = *name, .options = {}, .place = {}, .place_of_address = {}};
     if (const auto projection = request.target.parameter("projection")) {

@@ -1,4 +1,6 @@
 // Sixteen sessions of one scene in one sweep against each by itself.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
@@ -16,14 +18,16 @@ constexpr std::size_t kSessions = 16;
 // Sixteen artists turn the same sky, each from where the others have not been.
 constexpr std::size_t kImagesApart = 15;
 constexpr std::uint32_t kTerms = 30;
-const wire::Budget kDragging{.milliseconds = {}, .coefficients = kTerms, .target_error = 0};
+const relighting::Budget kDragging{
+    .milliseconds = {}, .coefficients = kTerms, .target_error = 0};
 
 class Artists {
   public:
     explicit Artists(const std::shared_ptr<const engine::Scene>& scene)
         : drag_(scene->face_resolution()) {
         for (std::size_t i = 0; i < kSessions; ++i) {
-            sessions_.push_back(std::make_unique<engine::Session>(scene, wire::Strategy{}));
+            sessions_.push_back(
+                std::make_unique<engine::Session>(scene, relighting::Strategy{}));
         }
     }
 
@@ -42,13 +46,13 @@ class Artists {
         }
     }
 
-    void step_alone(const wire::Budget& budget) {
+    void step_alone(const relighting::Budget& budget) {
         for (const auto& session : sessions_) {
             session->advance(budget);
         }
     }
 
-    void step_together(const wire::Budget& budget) {
+    void step_together(const relighting::Budget& budget) {
         std::vector<engine::SessionTurn> turns;
         for (const auto& session : sessions_) {
             if (!session->at_rest(budget)) {
@@ -63,7 +67,7 @@ class Artists {
                            [](const auto& session) { return session->exact(); });
     }
 
-    void converge_alone(const wire::Budget& budget) {
+    void converge_alone(const relighting::Budget& budget) {
         for (const auto& session : sessions_) {
             while (!session->exact()) {
                 session->advance(budget);
@@ -71,7 +75,7 @@ class Artists {
         }
     }
 
-    void converge_together(const wire::Budget& budget) {
+    void converge_together(const relighting::Budget& budget) {
         while (!exact()) {
             step_together(budget);
         }
@@ -131,7 +135,7 @@ Gain rest(Artists& alone, Artists& together, std::size_t rounds) {
             // The image of the drag, so that both converge from there.
             artists->step_alone(kDragging);
         }
-        const wire::Budget budget;
+        const relighting::Budget budget;
         const double seconds[] = {timed([&] { alone.converge_alone(budget); }),
                                   timed([&] { together.converge_together(budget); })};
         if (round > 0) {

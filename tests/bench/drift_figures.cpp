@@ -1,4 +1,6 @@
 // What rounding leaves behind when edits never rest.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
@@ -40,7 +42,7 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
 // The worst of all checks. Each stands at the end of a period, long after the lamp went out,
 // and compares the image shown with the dense product of the lighting that it shows.
 double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
-                   wire::Strategy strategy,
+                   relighting::Strategy strategy,
                    std::size_t edits) {
     const LightDrag drag(scene->face_resolution());
     const std::vector<float> lamp = lamp_lighting(scene->face_resolution());
@@ -52,7 +54,8 @@ double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
         std::transform(lamp.begin(), lamp.end(), on.back().begin(), on.back().begin(),
                        std::plus<>());
     }
-    const wire::Budget budget{.milliseconds = {}, .coefficients = kTerms, .target_error = 0};
+    const relighting::Budget budget{
+        .milliseconds = {}, .coefficients = kTerms, .target_error = 0};
     engine::Session session(scene, strategy);
     double worst = 0;
     for (std::size_t edit = 0; edit < edits; ++edit) {
@@ -74,8 +77,8 @@ void measure(Workbench& workbench, Results& results) {
     nlohmann::json& measured = results.measured("drift");
     measured["edits"] = edits;
     // The default, and the method that never resets of its own accord.
-    constexpr std::array kStrategies{wire::Strategy{},
-                                     wire::Strategy{.method = wire::Method::bi}};
+    constexpr std::array kStrategies{relighting::Strategy{},
+                                     relighting::Strategy{.method = relighting::Method::bi}};
     std::array<double, kStrategies.size()> drifts{};
     // Each on a thread of its own: an edit of so small an image is over before others could
     // help.
@@ -84,7 +87,7 @@ void measure(Workbench& workbench, Results& results) {
             [&] { drifts[i] = worst_drift(scene, kStrategies[i], edits); });
     });
     for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-        measured[std::string(wire::name_from(kStrategies[i].method))] = drifts[i];
+        measured[std::string(relighting::name_from(kStrategies[i].method))] = drifts[i];
     }
     const double worst = *std::max_element(drifts.begin(), drifts.end());
     results.set("drift_dark_tenth", worst);

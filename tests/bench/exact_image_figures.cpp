@@ -1,4 +1,5 @@
 // Dragging without approximation: every image is the exact one.
+#include "protocol/relighting/budget.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
 #include "tests/bench/workbench.h"
@@ -9,7 +10,8 @@ namespace {
 
 void measure(Workbench& workbench, Results& results) {
     // Time enough for all of it, whatever the engine makes of that.
-    const wire::Budget budget{.milliseconds = 1000, .coefficients = {}, .target_error = 0};
+    const relighting::Budget budget{
+        .milliseconds = 1000, .coefficients = {}, .target_error = 0};
     const std::size_t images = workbench.quick() ? 3 : 100;
     test::with_threads(Workbench::thread_counts().back(), [&] {
         ImagePipeline pipeline(workbench.scene());

@@ -1,5 +1,6 @@
 // The paper's regime: so many pixels and colours that the whole transport does not fit into an
 // image's time.
+#include "protocol/relighting/budget.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
 #include "tests/bench/workbench.h"
@@ -25,7 +26,7 @@ void measure(Workbench& workbench, Results& results) {
     }
     const std::size_t images = workbench.quick() ? 5 : 200;
     const auto scene = workbench.flagship_scene();
-    const wire::Budget budget;
+    const relighting::Budget budget;
     test::with_threads(Workbench::thread_counts().back(), [&] {
         ImagePipeline pipeline(scene);
         std::vector<double> latencies_ms;

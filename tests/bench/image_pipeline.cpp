@@ -1,5 +1,7 @@
 #include "tests/bench/image_pipeline.h"
 
+#include "protocol/relighting/strategy.h"
+
 #include <utility>
 
 namespace relume::bench {
@@ -8,7 +10,7 @@ ImagePipeline::ImagePipeline(std::shared_ptr<const engine::Scene> scene)
     : scene_(std::move(scene)),
       drag_(scene_->face_resolution()),
       sky_(scene_->transport()),
-      session_(scene_, wire::Strategy{}),
+      session_(scene_, relighting::Strategy{}),
       composer_(sky_, scene_->image().width, scene_->image().height),
       display_(wire::Display{}) {}
 

@@ -1,6 +1,7 @@
 // From light to JPEG as a room of the server does it, without the room.
 #pragma once
 
+#include "protocol/relighting/budget.h"
 #include "server/engine/session.h"
 #include "server/net/display_table.h"
 #include "server/net/frame_composer.h"
@@ -31,7 +32,9 @@ class ImagePipeline {
     // Image `number` of the drag is what the session is to show from now on.
     void turn_light(std::size_t number);
     // One step within the budget.
-    engine::StepReport advance(const wire::Budget& budget) { return session_.advance(budget); }
+    engine::StepReport advance(const relighting::Budget& budget) {
+        return session_.advance(budget);
+    }
     [[nodiscard]] bool exact() const { return session_.exact(); }
     // Waits for the image before, puts this one together and begins to encode it.
     void begin_encoding();

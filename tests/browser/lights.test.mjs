@@ -45,8 +45,11 @@ describe("lights", { timeout: 240_000 }, () => {
         // The list says what the slider says.
         await page.light("fill").locator(".light-row").click();
         const slider = page.page.locator('input[aria-label="power EV"]').first();
-        const shown = (await page.light("fill").locator(".light-figures").innerText()).trim();
-        assert.equal(shown, `${await slider.inputValue()} EV · 25°`);
+        const figures = page.light("fill").locator(".light-figures");
+        await page.sees(async () => {
+            const shown = (await figures.innerText()).trim();
+            assert.equal(shown, `${await slider.inputValue()} EV · 25°`);
+        });
     });
 
     it("keeps the lights in their order over a reload, for everyone", async () => {

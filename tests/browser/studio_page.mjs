@@ -43,6 +43,19 @@ export class StudioPage {
         await this.page.waitForFunction(source);
     }
 
+    /** Tries an assertion until it holds: what is shown follows what is known by a frame. */
+    async sees(assertion) {
+        const deadline = performance.now() + kPatienceMilliseconds;
+        for (;;) {
+            try {
+                return await assertion();
+            } catch (error) {
+                if (performance.now() > deadline) throw error;
+                await this.page.waitForTimeout(50);
+            }
+        }
+    }
+
     untilExact() {
         return this.until((relume) => relume.exact);
     }

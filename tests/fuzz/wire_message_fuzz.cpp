@@ -1,7 +1,7 @@
 // Whatever a client sends is a message or a WireError; a patch is applied whole, keeps the
 // state within its ranges and normal form, or leaves it alone.
 #include "protocol/wire/messages.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +20,8 @@ void require(bool condition) {
 
 void check_edit(const wire::Edit& edit) {
     const wire::Limits limits;
-    const wire::SessionState before;
-    wire::SessionState state;
+    const wire::RoomState before;
+    wire::RoomState state;
     nlohmann::json normalised;
     try {
         normalised = wire::apply_patch(state, edit.patch, limits);
@@ -34,7 +34,7 @@ void check_edit(const wire::Edit& edit) {
     nlohmann::json merged = wire::to_json(before);
     merged.merge_patch(normalised);
     require(merged == wire::to_json(state));
-    require(wire::session_state_from_json(nlohmann::json::parse(merged.dump())) == state);
+    require(wire::room_state_from_json(nlohmann::json::parse(merged.dump())) == state);
     require(wire::apply_patch(state, normalised, limits) == normalised);
 }
 

@@ -1,5 +1,7 @@
 // Whatever was edited before, by whichever methods, in whatever steps, on however many threads:
 // the same end has the same bits.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "tests/stability/provocations.h"
 #include "tests/support/random_lighting.h"
 #include "tests/support/tiny_transport.h"
@@ -24,14 +26,14 @@ T one_of(std::mt19937_64& random, const T (&values)[N]) {
     return values[random() % N];
 }
 
-wire::Strategy random_strategy(std::mt19937_64& random) {
-    using enum wire::Method;
-    using enum wire::Priority;
+relighting::Strategy random_strategy(std::mt19937_64& random) {
+    using enum relighting::Method;
+    using enum relighting::Priority;
     return {.method = one_of(random, {nwa, bi, pbi, guarded}),
-            .priority = one_of(random, {area, none, wire::Priority::transport, benefit})};
+            .priority = one_of(random, {area, none, relighting::Priority::transport, benefit})};
 }
 
-wire::Budget random_budget(std::mt19937_64& random) {
+relighting::Budget random_budget(std::mt19937_64& random) {
     return {.milliseconds = {},
             .coefficients = static_cast<std::uint32_t>(1 + random() % 400),
             .target_error = 0};
@@ -73,7 +75,7 @@ void live_through(const std::shared_ptr<const engine::Scene>& scene,
                   std::mt19937_64& random,
                   Tally& tally) {
     engine::Session session(scene, random_strategy(random));
-    const auto step = [&](const wire::Budget& budget) {
+    const auto step = [&](const relighting::Budget& budget) {
         session.advance(budget);
         tally.images += 1;
         tally.not_finite += all_finite(session.sums()) ? 0 : 1;
@@ -85,13 +87,13 @@ void live_through(const std::shared_ptr<const engine::Scene>& scene,
         if (random() % 2 == 0) {
             session.set_strategy(random_strategy(random));
         }
-        const wire::Budget budget = random_budget(random);
+        const relighting::Budget budget = random_budget(random);
         for (std::uint64_t steps = random() % 6; steps > 0; --steps) {
             step(budget);
         }
     }
     session.set_lighting(end.lighting);
-    const wire::Budget budget = random_budget(random);
+    const relighting::Budget budget = random_budget(random);
     const auto differs = [&] {
         return !std::equal(end.sums.begin(), end.sums.end(), session.sums().begin());
     };

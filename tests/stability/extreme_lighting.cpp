@@ -1,4 +1,6 @@
 // Lighting as large and as small as floats go.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "tests/stability/provocations.h"
 #include "tests/support/random_lighting.h"
 #include "tests/support/tiny_transport.h"
@@ -13,8 +15,9 @@
 namespace relume::stability {
 namespace {
 
-constexpr wire::Method kMethods[] = {wire::Method::nwa, wire::Method::bi, wire::Method::pbi,
-                                     wire::Method::guarded};
+constexpr relighting::Method kMethods[] = {relighting::Method::nwa, relighting::Method::bi,
+                                           relighting::Method::pbi,
+                                           relighting::Method::guarded};
 
 // Scaled so that the largest coefficient is of this magnitude.
 Lighting scaled_lighting(std::uint32_t n, std::uint64_t seed, float largest) {
@@ -48,9 +51,10 @@ void swing(const std::shared_ptr<const engine::Scene>& scene,
             extremes.not_finite += std::isfinite(value) ? 0 : 1;
         }
     };
-    for (const wire::Method method : kMethods) {
-        engine::Session session(scene, {.method = method, .priority = wire::Priority::benefit});
-        const wire::Budget few{.milliseconds = {}, .coefficients = 40, .target_error = 0};
+    for (const relighting::Method method : kMethods) {
+        engine::Session session(scene,
+                                {.method = method, .priority = relighting::Priority::benefit});
+        const relighting::Budget few{.milliseconds = {}, .coefficients = 40, .target_error = 0};
         Lighting lighting;
         for (int turn = 0; turn < 4; ++turn) {
             lighting = scaled_lighting(n, seed + static_cast<std::uint64_t>(turn / 2), largest);

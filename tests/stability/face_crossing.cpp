@@ -1,4 +1,5 @@
 // A small light walks from face to face, over an edge and through a corner.
+#include "protocol/relighting/strategy.h"
 #include "tests/stability/open_plane.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -94,7 +95,8 @@ double border_cost(const OpenPlane& plane, const Path& path) {
         constexpr std::uint32_t kColumns = 10;
         const auto exact = exact_images(plane.scene(), lightings);
         const RelitRun run = relight_in_turn(
-            plane.scene(), {.method = wire::Method::nwa, .priority = wire::Priority::area},
+            plane.scene(),
+            {.method = relighting::Method::nwa, .priority = relighting::Priority::area},
             kColumns, lightings);
         double sum = 0;
         for (std::size_t i = 0; i < exact.size(); ++i) {

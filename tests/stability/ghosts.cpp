@@ -2,6 +2,7 @@
 // where it is nor take it away from where it was.
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/haar.h"
+#include "protocol/relighting/strategy.h"
 #include "tests/stability/band_norms.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -64,12 +65,12 @@ struct Measured {
 };
 
 Measured measure(const std::shared_ptr<const engine::Scene>& scene,
-                 wire::Method method,
+                 relighting::Method method,
                  std::span<const Lighting> lightings,
                  std::span<const RelitImage> exact) {
     Measured measured;
-    measured.run = relight_in_turn(scene, {.method = method, .priority = wire::Priority::area},
-                                   kColumns, lightings);
+    measured.run = relight_in_turn(
+        scene, {.method = method, .priority = relighting::Priority::area}, kColumns, lightings);
     for (std::size_t i = 0; i < lightings.size(); ++i) {
         const Lighting& approximation = measured.run.approximations[i];
         measured.residual = std::max(measured.residual,
@@ -93,13 +94,13 @@ Outcome provoke(Workbench& workbench) {
         lightings.push_back(sky_and_disc(scene->face_resolution(), kSky, light_of(i)));
     }
     const std::vector<RelitImage> exact = exact_images(scene, lightings);
-    const Measured nwa = measure(scene, wire::Method::nwa, lightings, exact);
+    const Measured nwa = measure(scene, relighting::Method::nwa, lightings, exact);
     workbench.progress("ghosts", 0.25);
-    const Measured bi = measure(scene, wire::Method::bi, lightings, exact);
+    const Measured bi = measure(scene, relighting::Method::bi, lightings, exact);
     workbench.progress("ghosts", 0.5);
-    const Measured pbi = measure(scene, wire::Method::pbi, lightings, exact);
+    const Measured pbi = measure(scene, relighting::Method::pbi, lightings, exact);
     workbench.progress("ghosts", 0.75);
-    const Measured guarded = measure(scene, wire::Method::guarded, lightings, exact);
+    const Measured guarded = measure(scene, relighting::Method::guarded, lightings, exact);
 
     // The guard weighs by 64 rows, each prediction with a relative deviation of at most
     // 1/√128; three of them either way.

@@ -1,5 +1,6 @@
 // A studio creeps round. The image hardly changes, but which coefficients are the k largest
 // does.
+#include "protocol/relighting/strategy.h"
 #include "tests/lab/sequences/environment_source.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -23,13 +24,13 @@ struct Popping {
 };
 
 Popping measure(const std::shared_ptr<const engine::Scene>& scene,
-                wire::Method method,
+                relighting::Method method,
                 std::uint32_t columns,
                 std::span<const Lighting> lightings,
                 std::span<const RelitImage> exact) {
     Popping popping;
-    popping.run = relight_in_turn(scene, {.method = method, .priority = wire::Priority::area},
-                                  columns, lightings);
+    popping.run = relight_in_turn(
+        scene, {.method = method, .priority = relighting::Priority::area}, columns, lightings);
     double change = 0;
     double exact_change = 0;
     double largest = 0;
@@ -54,17 +55,17 @@ Outcome provoke(Workbench& workbench) {
         turning_environment(lab::load_environment("studio", scene->face_resolution()),
                             kDegreesPerImage, workbench.choose(60U, 300U));
     const auto exact = exact_images(scene, lightings);
-    const auto measured = [&](wire::Method method, std::uint32_t columns) {
+    const auto measured = [&](relighting::Method method, std::uint32_t columns) {
         return measure(scene, method, columns, lightings, exact);
     };
-    const Popping nwa = measured(wire::Method::nwa, 30);
+    const Popping nwa = measured(relighting::Method::nwa, 30);
     workbench.progress("popping", 0.3);
-    const Popping more = measured(wire::Method::nwa, 100);
-    const Popping all = measured(wire::Method::nwa, kAll);
+    const Popping more = measured(relighting::Method::nwa, 100);
+    const Popping all = measured(relighting::Method::nwa, kAll);
     workbench.progress("popping", 0.6);
-    const Popping pbi = measured(wire::Method::pbi, 30);
-    const Popping guarded = measured(wire::Method::guarded, 30);
-    const Popping guarded_more = measured(wire::Method::guarded, 100);
+    const Popping pbi = measured(relighting::Method::pbi, 30);
+    const Popping guarded = measured(relighting::Method::guarded, 30);
+    const Popping guarded_more = measured(relighting::Method::guarded, 100);
 
     // Of a float image's rounding, ε‖B‖ an image, in the change of the exact image.
     double rounding = 0;

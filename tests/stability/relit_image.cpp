@@ -1,5 +1,8 @@
 #include "tests/stability/relit_image.h"
 
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
+
 #include <cmath>
 #include <limits>
 
@@ -54,7 +57,7 @@ RelitImage absolute_difference(const RelitImage& a, const RelitImage& b, float g
 }
 
 RelitRun relight_in_turn(const std::shared_ptr<const engine::Scene>& scene,
-                         wire::Strategy strategy,
+                         relighting::Strategy strategy,
                          std::uint32_t columns,
                          std::span<const Lighting> lightings) {
     engine::Session session(scene, strategy);
@@ -83,7 +86,7 @@ std::vector<RelitImage> exact_images(const std::shared_ptr<const engine::Scene>&
 }
 
 void run_until_exact(engine::Session& session) {
-    constexpr wire::Budget kAllAtOnce{
+    constexpr relighting::Budget kAllAtOnce{
         .milliseconds = 1e6, .coefficients = std::nullopt, .target_error = 0};
     while (!session.exact()) {
         session.advance(kAllAtOnce);

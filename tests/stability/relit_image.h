@@ -1,6 +1,7 @@
 // Relit images and the distances between them.
 #pragma once
 
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 
 #include <cstdint>
@@ -41,7 +42,7 @@ struct RelitRun {
     std::vector<Lighting> approximations;  // L̃ after each step
 };
 [[nodiscard]] RelitRun relight_in_turn(const std::shared_ptr<const engine::Scene>& scene,
-                                       wire::Strategy strategy,
+                                       relighting::Strategy strategy,
                                        std::uint32_t columns,
                                        std::span<const Lighting> lightings);
 

@@ -1,5 +1,6 @@
 // A night with lamps turns at a speed at which bands keep changing their mind between going on
 // and beginning anew.
+#include "protocol/relighting/strategy.h"
 #include "tests/lab/sequences/environment_source.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -53,9 +54,9 @@ double resets_at_rest(const std::shared_ptr<const engine::Scene>& scene,
     constexpr std::size_t kAgain = 60;
     std::vector<Lighting> lightings(moving.begin(), moving.end());
     lightings.insert(lightings.end(), kAgain, moving.back());
-    const RelitRun run =
-        relight_in_turn(scene, {.method = wire::Method::pbi, .priority = wire::Priority::area},
-                        kColumns, lightings);
+    const RelitRun run = relight_in_turn(
+        scene, {.method = relighting::Method::pbi, .priority = relighting::Priority::area},
+        kColumns, lightings);
     std::vector<double> resets(scene->band_count());
     for (std::size_t i = moving.size(); i < run.steps.size(); ++i) {
         for (std::size_t band = 0; band < resets.size(); ++band) {
@@ -72,13 +73,14 @@ Outcome provoke(Workbench& workbench) {
                             kDegreesPerImage, workbench.choose(60U, 240U));
     const auto exact = exact_images(scene, lightings);
     workbench.progress("reset_flicker", 0.3);
-    const auto run_of = [&](wire::Method method) {
-        return relight_in_turn(scene, {.method = method, .priority = wire::Priority::area},
+    const auto run_of = [&](relighting::Method method) {
+        return relight_in_turn(scene,
+                               {.method = method, .priority = relighting::Priority::area},
                                kColumns, lightings);
     };
-    const Flicker nwa = flicker_of(run_of(wire::Method::nwa), exact);
-    const RelitRun pbi_run = run_of(wire::Method::pbi);
-    const RelitRun guarded_run = run_of(wire::Method::guarded);
+    const Flicker nwa = flicker_of(run_of(relighting::Method::nwa), exact);
+    const RelitRun pbi_run = run_of(relighting::Method::pbi);
+    const RelitRun guarded_run = run_of(relighting::Method::guarded);
     const Flicker pbi = flicker_of(pbi_run, exact);
     const Flicker guarded = flicker_of(guarded_run, exact);
     workbench.progress("reset_flicker", 0.8);

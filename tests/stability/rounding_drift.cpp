@@ -1,4 +1,6 @@
 // A light of 10⁵ goes on and off while the sky turns, edit upon edit, and nothing ever rests.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/band_images.h"
 #include "server/light/procedural_environment.h"
 #include "tests/stability/provocations.h"
@@ -74,11 +76,13 @@ void raise(Drift& worst,
 // The worst of some checks, each at the end of a period, long after the lamp went out.
 Drift drift_of(const std::shared_ptr<const engine::Scene>& scene,
                const LampScript& script,
-               wire::Method method,
+               relighting::Method method,
                std::size_t edits,
                const std::function<void()>& check_is_done) {
-    engine::Session session(scene, {.method = method, .priority = wire::Priority::benefit});
-    const wire::Budget budget{.milliseconds = {}, .coefficients = kColumns, .target_error = 0};
+    engine::Session session(scene,
+                            {.method = method, .priority = relighting::Priority::benefit});
+    const relighting::Budget budget{
+        .milliseconds = {}, .coefficients = kColumns, .target_error = 0};
     Drift worst;
     for (std::size_t edit = 0; edit < edits; ++edit) {
         session.set_lighting(script.at(edit));
@@ -92,7 +96,7 @@ Drift drift_of(const std::shared_ptr<const engine::Scene>& scene,
 }
 
 struct DriftOfMethod {
-    wire::Method method;
+    relighting::Method method;
     std::size_t edits = 0;
     Drift drift = {};
 };
@@ -167,18 +171,19 @@ Outcome provoke(Workbench& workbench) {
          Sense::at_least, 1e-4, plain.drift.dark_tenth, "the bound that the engine must keep"});
     // BI goes the whole way: it never resets of its own accord.
     std::array methods{
-        DriftOfMethod{wire::Method::bi, workbench.choose<std::size_t>(5'000, 1'000'000)},
-        DriftOfMethod{wire::Method::pbi, workbench.choose<std::size_t>(5'000, 100'000)},
-        DriftOfMethod{wire::Method::guarded, workbench.choose<std::size_t>(5'000, 100'000)}};
+        DriftOfMethod{relighting::Method::bi, workbench.choose<std::size_t>(5'000, 1'000'000)},
+        DriftOfMethod{relighting::Method::pbi, workbench.choose<std::size_t>(5'000, 100'000)},
+        DriftOfMethod{relighting::Method::guarded,
+                      workbench.choose<std::size_t>(5'000, 100'000)}};
     measure(workbench, scene, script, methods);
     for (const auto& [method, edits, drift] : methods) {
         outcome.findings.push_back({fmt::format("{}-{}, {} edits: error in the darkest tenth",
-                                                wire::name_from(method), kColumns, edits),
+                                                relighting::name_from(method), kColumns, edits),
                                     Sense::at_most, 1e-4, drift.dark_tenth,
                                     "rounding spreads evenly; the darkest tenth is not ten "
                                     "times darker than the whole"});
         outcome.findings.push_back(
-            {fmt::format("{}-{}: relative L2", wire::name_from(method), kColumns),
+            {fmt::format("{}-{}: relative L2", relighting::name_from(method), kColumns),
              Sense::at_most, 1e-5, drift.l2,
              "the drift at which the engine makes a band anew"});
     }

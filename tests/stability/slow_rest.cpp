@@ -1,4 +1,5 @@
 // A light jumps and then rests: from there on each image should be nearer than the one before.
+#include "protocol/relighting/strategy.h"
 #include "tests/lab/sequences/environment_source.h"
 #include "tests/stability/band_norms.h"
 #include "tests/stability/provocations.h"
@@ -52,7 +53,7 @@ double longest_step(const engine::Scene& scene,
 }
 
 Rest rest_of(const std::shared_ptr<const engine::Scene>& scene,
-             wire::Strategy strategy,
+             relighting::Strategy strategy,
              const Lighting& first,
              const Lighting& wanted,
              const RelitImage& exact) {
@@ -106,13 +107,15 @@ Outcome provoke(Workbench& workbench) {
     const Lighting& wanted = lightings.back();
     const RelitImage exact = exact_images(scene, std::span(&wanted, 1)).front();
     Outcome outcome;
-    for (const wire::Method method :
-         {wire::Method::nwa, wire::Method::bi, wire::Method::pbi, wire::Method::guarded}) {
-        for (const wire::Priority priority : {wire::Priority::area, wire::Priority::benefit}) {
+    for (const relighting::Method method :
+         {relighting::Method::nwa, relighting::Method::bi, relighting::Method::pbi,
+          relighting::Method::guarded}) {
+        for (const relighting::Priority priority :
+             {relighting::Priority::area, relighting::Priority::benefit}) {
             const Rest rest = rest_of(scene, {.method = method, .priority = priority},
                                       lightings.front(), wanted, exact);
-            const std::string name =
-                fmt::format("{}-30-{}", wire::name_from(method), wire::name_from(priority));
+            const std::string name = fmt::format("{}-30-{}", relighting::name_from(method),
+                                                 relighting::name_from(priority));
             outcome.findings.push_back({name + ": largest rise of ‖L−L̃‖₁ at rest",
                                         Sense::at_most, 0, rest.lighting_rise,
                                         "a column taken is exact from then on"});
@@ -130,7 +133,7 @@ Outcome provoke(Workbench& workbench) {
             outcome.findings.push_back({name + ": error with all columns taken", Sense::at_most,
                                         1e-5, rest.end_error,
                                         "README, before the full product"});
-            if (priority == wire::Priority::area && rest.rising > 0) {
+            if (priority == relighting::Priority::area && rest.rising > 0) {
                 const float exposure = exposure_for(exact);
                 outcome.tiles.push_back(
                     {rest.before, fmt::format("{}: error {:.4f}", name, rest.before_error),

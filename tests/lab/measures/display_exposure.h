@@ -1,7 +1,7 @@
 // The exposure at which an image is looked at.
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <span>
 

@@ -1,6 +1,7 @@
 #include "tests/lab/measures/experiment.h"
 
 #include "protocol/basis/cubemap.h"
+#include "protocol/relighting/budget.h"
 #include "server/engine/session.h"
 #include "tests/lab/measures/lighting_error.h"
 #include "tests/lab/measures/perceptual_difference.h"
@@ -32,7 +33,7 @@ class Reference {
     }
 
   private:
-    static constexpr wire::Budget kAllAtOnce{
+    static constexpr relighting::Budget kAllAtOnce{
         .milliseconds = 1e6, .coefficients = std::nullopt, .target_error = 0};
     engine::Session session_;
 };

@@ -1,4 +1,5 @@
 // PBI with the band selectors of the thesis, made of the engine's parts.
+#include "protocol/relighting/strategy.h"
 #include "server/engine/ranking.h"
 #include "server/engine/selection.h"
 #include "tests/lab/methods/band_selector.h"
@@ -31,7 +32,7 @@ class SelectorPlanMaker final : public PlanMaker {
 
   private:
     engine::SelectionBudget budget_;
-    wire::Priority priority_;
+    relighting::Priority priority_;
     std::unique_ptr<BandSelector> selector_;
     engine::Ranking ranking_;
     engine::Selection selection_;

@@ -1,5 +1,6 @@
 #include "tests/lab/methods/session_contestant.h"
 
+#include "protocol/relighting/strategy.h"
 #include "tests/lab/methods/light_radiance.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace relume::lab {
 
 SessionContestant::SessionContestant(std::shared_ptr<const engine::Scene> scene,
-                                     wire::Strategy strategy,
+                                     relighting::Strategy strategy,
                                      const engine::SelectionBudget& budget,
                                      std::size_t coefficients)
     : session_(std::move(scene), strategy), budget_(budget), coefficients_(coefficients) {}

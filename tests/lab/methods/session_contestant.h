@@ -1,6 +1,7 @@
 // A method that is a session of the engine, whatever the basis of its transport.
 #pragma once
 
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/lab/methods/contestant.h"
 
@@ -15,7 +16,7 @@ class SessionContestant final : public Contestant {
     // Of the light, the coefficients from index `coefficients` on are taken for zero: low bands
     // alone, where indices follow bands.
     SessionContestant(std::shared_ptr<const engine::Scene> scene,
-                      wire::Strategy strategy,
+                      relighting::Strategy strategy,
                       const engine::SelectionBudget& budget,
                       std::size_t coefficients);
 

@@ -1,5 +1,5 @@
 // The methods of the engine's own sessions: what the server runs.
-#include "protocol/wire/session_names.h"
+#include "protocol/relighting/strategy.h"
 #include "tests/lab/methods/families.h"
 #include "tests/lab/methods/session_contestant.h"
 #include "tests/lab/methods/wavelet_terms.h"
@@ -11,8 +11,8 @@
 namespace relume::lab {
 namespace {
 
-MethodFamily session_family(wire::Method method, std::string summary) {
-    const std::string name(wire::name_from(method));
+MethodFamily session_family(relighting::Method method, std::string summary) {
+    const std::string name(relighting::name_from(method));
     return {.name = name,
             .form = std::string(kWaveletTermsForm),
             .summary = std::move(summary),
@@ -23,7 +23,7 @@ MethodFamily session_family(wire::Method method, std::string summary) {
                     .enter = [method, terms](const LabScene& scene) {
                         return std::make_unique<SessionContestant>(
                             scene.haar,
-                            wire::Strategy{.method = method, .priority = terms.priority},
+                            relighting::Strategy{.method = method, .priority = terms.priority},
                             terms.budget, scene.haar->coefficient_count());
                     }};
             }};
@@ -32,13 +32,13 @@ MethodFamily session_family(wire::Method method, std::string summary) {
 }  // namespace
 
 void add_session_families(std::vector<MethodFamily>& families) {
-    families.push_back(session_family(wire::Method::nwa,
+    families.push_back(session_family(relighting::Method::nwa,
                                       "the best terms of the light, anew each image [Ng03]"));
-    families.push_back(
-        session_family(wire::Method::bi, "the best terms of the difference [Overbeck06 §3]"));
+    families.push_back(session_family(relighting::Method::bi,
+                                      "the best terms of the difference [Overbeck06 §3]"));
     families.push_back(session_family(
-        wire::Method::pbi, "bi, bands begin anew where that is nearer [Overbeck06 §5]"));
-    families.push_back(session_family(wire::Method::guarded,
+        relighting::Method::pbi, "bi, bands begin anew where that is nearer [Overbeck06 §5]"));
+    families.push_back(session_family(relighting::Method::guarded,
                                       "bi, bands begin anew by the predicted image error"));
 }
 

@@ -1,5 +1,6 @@
 // Methods in spherical harmonics: sh, linear; pbi-sh, the engine's PBI; pbi-sh-filled, the
 // thesis' own.
+#include "protocol/relighting/strategy.h"
 #include "protocol/transport/transport.h"
 #include "tests/lab/methods/band_filling.h"
 #include "tests/lab/methods/families.h"
@@ -58,15 +59,16 @@ std::uint32_t order_from_text(std::string_view text) {
 // All coefficients of the order, each image anew.
 Method linear_method(std::string_view rest) {
     const std::uint32_t order = order_from_text(rest);
-    return {
-        .label = fmt::format("sh-{}", order), .enter = [order](const LabScene& scene) {
-            auto baked = sh_scene(scene, order);
-            const auto count = static_cast<std::uint32_t>(basis::sh_count(order));
-            return std::make_unique<SessionContestant>(
-                std::move(baked),
-                wire::Strategy{.method = wire::Method::nwa, .priority = wire::Priority::none},
-                engine::SelectionBudget{.columns = count, .bytes = ~std::uint64_t{0}}, count);
-        }};
+    return {.label = fmt::format("sh-{}", order), .enter = [order](const LabScene& scene) {
+                auto baked = sh_scene(scene, order);
+                const auto count = static_cast<std::uint32_t>(basis::sh_count(order));
+                return std::make_unique<SessionContestant>(
+                    std::move(baked),
+                    relighting::Strategy{.method = relighting::Method::nwa,
+                                         .priority = relighting::Priority::none},
+                    engine::SelectionBudget{.columns = count, .bytes = ~std::uint64_t{0}},
+                    count);
+            }};
 }
 
 // All bands there are, the budget's worth of differences an image.
@@ -77,7 +79,8 @@ Method incremental_method(std::string_view rest) {
                 const std::size_t count = baked->coefficient_count();
                 return std::make_unique<SessionContestant>(
                     std::move(baked),
-                    wire::Strategy{.method = wire::Method::pbi, .priority = terms.priority},
+                    relighting::Strategy{.method = relighting::Method::pbi,
+                                         .priority = terms.priority},
                     terms.budget, count);
             }};
 }

@@ -1,6 +1,6 @@
 #include "tests/lab/methods/wavelet_terms.h"
 
-#include "protocol/wire/session_names.h"
+#include "protocol/relighting/strategy.h"
 
 #include <fmt/format.h>
 
@@ -55,10 +55,10 @@ WaveletTerms wavelet_terms_from_text(std::string_view text) {
                         "kB or MB after it",
                         budget_text));
     }
-    const auto priority = wire::kPriorityNames.value(priority_text);
+    const auto priority = relighting::kPriorityNames.value(priority_text);
     if (!priority) {
         throw std::invalid_argument(fmt::format("priority '{}', expected {}", priority_text,
-                                                wire::kPriorityNames.alternatives()));
+                                                relighting::kPriorityNames.alternatives()));
     }
     return {.budget = *budget,
             .priority = *priority,

@@ -1,7 +1,7 @@
 // What a wavelet method may spend on an image, and by what it ranks: BUDGET[-PRIORITY].
 #pragma once
 
-#include "protocol/wire/session_state.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/selection.h"
 
 #include <string>
@@ -11,7 +11,7 @@ namespace relume::lab {
 
 struct WaveletTerms {
     engine::SelectionBudget budget;  // per image, in columns or in bytes
-    wire::Priority priority = wire::Priority::area;
+    relighting::Priority priority = relighting::Priority::area;
     std::string text;  // complete: "30-area"
 
     [[nodiscard]] bool counts_bytes() const;

@@ -1,6 +1,6 @@
 #include "tests/lab/sequences/curve.h"
 
-#include "protocol/wire/name_table.h"
+#include "protocol/base/text/name_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@
 namespace relume::lab {
 namespace {
 
-constexpr wire::NameTable<Curve::Way, 4> kWayNames({{
+constexpr text::NameTable<Curve::Way, 4> kWayNames({{
     {Curve::Way::linear, "linear"},
     {Curve::Way::slow_fast_slow, "slow-fast-slow"},
     {Curve::Way::geometric, "geometric"},

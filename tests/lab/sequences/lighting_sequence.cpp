@@ -1,6 +1,6 @@
 #include "tests/lab/sequences/lighting_sequence.h"
 
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "client/cli/environment_upload.h"
 
 #include "client/cli/client_error.h"
-#include "protocol/wire/names.h"
+#include "protocol/base/text/names.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@ namespace {
 TEST(UploadNames, AreValidWhateverTheFileIsCalled) {
     for (const char* file : {"city.hdr", "/a/b/Meine Küche (1).exr", ".hdr", "..hdr", "...", "",
                              "a/.hidden.hdr", "~!@#.hdr"}) {
-        EXPECT_TRUE(wire::is_name(upload_name(file, "x", {}))) << upload_name(file, "x", {});
+        EXPECT_TRUE(text::is_name(upload_name(file, "x", {}))) << upload_name(file, "x", {});
     }
-    EXPECT_TRUE(wire::is_name(upload_name(std::string(300, 'n') + ".hdr", "x", {})));
+    EXPECT_TRUE(text::is_name(upload_name(std::string(300, 'n') + ".hdr", "x", {})));
     EXPECT_TRUE(upload_name("city.hdr", "x", {}).starts_with("city-"));
 }
 

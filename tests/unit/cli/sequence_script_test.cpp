@@ -1,7 +1,7 @@
 #include "client/cli/sequence_script.h"
 
 #include "client/cli/client_error.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(SequenceScripts, TheDocumentedOneIsTakenAndAServerWouldTakeItsEdits) {
     const SequenceScript script = sequence_script_from_text(documented_script());
     EXPECT_EQ(script.scene, "table");
     ASSERT_EQ(script.steps.size(), 6U);
-    wire::SessionState state;
+    wire::RoomState state;
     wire::apply_patch(state, script.start, wire::Limits{});
     for (const Step& step : script.steps) {
         for (std::uint32_t i = 0; i < edit_count(step); ++i) {

@@ -1,5 +1,6 @@
 // An image costs no allocation once a session has seen a few: heap locks would make sessions
 // wait for each other.
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/support/random_lighting.h"
 #include "tests/support/timing.h"
@@ -60,7 +61,7 @@ namespace {
 // Sessions that are dragged through a few lights, with a little rest under each.
 class Drag {
   public:
-    Drag(wire::Method method, std::size_t sessions) : scene_({.channels = 3}) {
+    Drag(relighting::Method method, std::size_t sessions) : scene_({.channels = 3}) {
         constexpr std::uint64_t kLights = 5;
         for (std::uint64_t light = 0; light < kLights; ++light) {
             lights_.push_back(test::random_lighting(8, light));
@@ -68,7 +69,8 @@ class Drag {
         for (std::size_t i = 0; i < sessions; ++i) {
             sessions_.push_back(std::make_unique<Session>(
                 scene_.scene(),
-                wire::Strategy{.method = method, .priority = wire::Priority::benefit}));
+                relighting::Strategy{.method = method,
+                                     .priority = relighting::Priority::benefit}));
             turns_.push_back({.session = sessions_.back().get(),
                               .budget = {.milliseconds = std::nullopt, .coefficients = 20},
                               .report = {}});
@@ -100,7 +102,7 @@ class Drag {
     std::vector<SessionTurn> turns_;
 };
 
-class Allocation : public testing::TestWithParam<wire::Method> {};
+class Allocation : public testing::TestWithParam<relighting::Method> {};
 
 // On one thread, so that no thread meets its first image late.
 TEST_P(Allocation, NoneInTheSteadyState) {
@@ -121,10 +123,10 @@ TEST_P(Allocation, NoneInTheSteadyState) {
 
 INSTANTIATE_TEST_SUITE_P(Methods,
                          Allocation,
-                         testing::Values(wire::Method::nwa,
-                                         wire::Method::bi,
-                                         wire::Method::pbi,
-                                         wire::Method::guarded));
+                         testing::Values(relighting::Method::nwa,
+                                         relighting::Method::bi,
+                                         relighting::Method::pbi,
+                                         relighting::Method::guarded));
 
 }  // namespace
 }  // namespace relume::engine

@@ -1,5 +1,7 @@
 #include "server/engine/guard.h"
 
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
@@ -26,7 +28,7 @@ class GuardTest : public testing::Test {
 
     const Plan& decide(const std::vector<float>& light, const SelectionBudget& budget) {
         lighting_.set_target(light);
-        ranking_.rank(scene_, lighting_, scene_.weights(wire::Priority::benefit));
+        ranking_.rank(scene_, lighting_, scene_.weights(relighting::Priority::benefit));
         lit_.set_nearly(light, kSurelyNegligible);
         return guard_.decide(lighting_, lit_, ranking_, budget);
     }
@@ -145,15 +147,16 @@ TEST_F(GuardTest, DecidesTheSameAfterForgetting) {
 // A ghost, bigger than all the target: the guarded image is near, the incremental one is not.
 TEST(GuardedSession, IsNearerThanGoingOnAfterABrightLight) {
     const TinyScene tiny;
-    const wire::Budget budget{
+    const relighting::Budget budget{
         .milliseconds = std::nullopt, .coefficients = 10, .target_error = 0};
     double stated[2] = {};
-    for (const auto method : {wire::Method::bi, wire::Method::guarded}) {
-        Session session(tiny.scene(), {.method = method, .priority = wire::Priority::area});
+    for (const auto method : {relighting::Method::bi, relighting::Method::guarded}) {
+        Session session(tiny.scene(),
+                        {.method = method, .priority = relighting::Priority::area});
         session.set_lighting(test::random_lighting(8, 1, 1e6F));
         session.advance({.milliseconds = std::nullopt, .coefficients = 384, .target_error = 0});
         session.set_lighting(test::random_lighting(8, 2, 1));
-        stated[method == wire::Method::guarded] = session.advance(budget).stated_error;
+        stated[method == relighting::Method::guarded] = session.advance(budget).stated_error;
     }
     EXPECT_GT(stated[0], 100);
     EXPECT_LT(stated[1], 2);

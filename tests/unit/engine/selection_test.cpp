@@ -1,5 +1,6 @@
 #include "server/engine/selection.h"
 
+#include "protocol/relighting/strategy.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kAnyBytes = ~std::uint64_t{0};
 
-class SelectionTest : public testing::TestWithParam<wire::Priority> {
+class SelectionTest : public testing::TestWithParam<relighting::Priority> {
   protected:
     TinyScene tiny_;
     const Scene& scene_ = *tiny_.scene();
@@ -66,7 +67,7 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
 TEST(Benefit, IsTheEnergyAColumnAddsPerByte) {
     const TinyScene tiny;
     const auto& transport = tiny.transport();
-    const auto weights = tiny.scene()->weights(wire::Priority::benefit);
+    const auto weights = tiny.scene()->weights(relighting::Priority::benefit);
     for (std::size_t j = 0; j < transport.column_count(); ++j) {
         const double weight = weights[j];
         EXPECT_NEAR(weight * weight * transport.column_bytes(j), transport.energy(j, 0),
@@ -83,7 +84,7 @@ TEST(Benefit, BringsTheMostEnergyForItsBytes) {
     Selection selection;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         lighting.set_target(test::random_lighting(scene.face_resolution(), seed));
-        const auto energy_within = [&](wire::Priority priority) {
+        const auto energy_within = [&](relighting::Priority priority) {
             Plan plan;
             ranking.rank(scene, lighting, scene.weights(priority));
             selection.choose(scene, lighting, ranking, scene.places(),
@@ -97,10 +98,10 @@ TEST(Benefit, BringsTheMostEnergyForItsBytes) {
             }
             return energy;
         };
-        const double most = energy_within(wire::Priority::benefit);
-        for (const auto priority :
-             {wire::Priority::area, wire::Priority::none, wire::Priority::transport}) {
-            EXPECT_GT(most, energy_within(priority) * 0.99) << wire::name_from(priority);
+        const double most = energy_within(relighting::Priority::benefit);
+        for (const auto priority : {relighting::Priority::area, relighting::Priority::none,
+                                    relighting::Priority::transport}) {
+            EXPECT_GT(most, energy_within(priority) * 0.99) << relighting::name_from(priority);
         }
     }
 }
@@ -200,10 +201,10 @@ TEST_P(SelectionTest, RanksWhatCannotBeSquared) {
 
 INSTANTIATE_TEST_SUITE_P(Priorities,
                          SelectionTest,
-                         testing::Values(wire::Priority::area,
-                                         wire::Priority::none,
-                                         wire::Priority::transport,
-                                         wire::Priority::benefit));
+                         testing::Values(relighting::Priority::area,
+                                         relighting::Priority::none,
+                                         relighting::Priority::transport,
+                                         relighting::Priority::benefit));
 
 }  // namespace
 }  // namespace relume::engine

@@ -1,5 +1,7 @@
 #include "server/engine/session.h"
 
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
 
@@ -15,10 +17,10 @@
 namespace relume::engine {
 namespace {
 
-using wire::Budget;
-using wire::Method;
-using wire::Priority;
-using wire::Strategy;
+using relighting::Budget;
+using relighting::Method;
+using relighting::Priority;
+using relighting::Strategy;
 
 constexpr double kExactTolerance = 1e-5;
 
@@ -157,7 +159,7 @@ TEST(Session, ABrightLightLeavesNothingBehindWhileEditsGoOn) {
         }
         const auto dense = test::dense_product(tiny.transport(), copy(session.approximation()));
         EXPECT_LT(test::relative_l2(session.sums(), dense), 1e-4)
-            << "method " << wire::name_from(method);
+            << "method " << relighting::name_from(method);
     }
 }
 

@@ -1,3 +1,5 @@
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
@@ -11,9 +13,9 @@
 namespace relume::engine {
 namespace {
 
-using wire::Budget;
-using wire::Method;
-using wire::Priority;
+using relighting::Budget;
+using relighting::Method;
+using relighting::Priority;
 
 Budget coefficients(std::uint32_t count) {
     return {.milliseconds = std::nullopt, .coefficients = count, .target_error = 0};
@@ -65,7 +67,7 @@ RC_GTEST_PROP(SessionsTogether, GetTheBitsTheyGetAlone, ()) {
     // So few that they do not turn to the full product for being many.
     std::vector<Pair> pairs(*rc::gen::inRange<std::size_t>(1, 8));
     for (Pair& pair : pairs) {
-        const wire::Strategy strategy{
+        const relighting::Strategy strategy{
             .method = *rc::gen::element(Method::nwa, Method::bi, Method::pbi, Method::guarded),
             .priority = *rc::gen::element(Priority::area, Priority::benefit)};
         pair.together = std::make_unique<Session>(tiny.scene(), strategy);
@@ -100,8 +102,8 @@ TEST(SessionsTogether, ComeHomeFromDifferentPlaces) {
     std::vector<Pair> pairs(19);
     std::vector<Pair*> all;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        pairs[i].together = std::make_unique<Session>(tiny.scene(), wire::Strategy{});
-        pairs[i].alone = std::make_unique<Session>(tiny.scene(), wire::Strategy{});
+        pairs[i].together = std::make_unique<Session>(tiny.scene(), relighting::Strategy{});
+        pairs[i].alone = std::make_unique<Session>(tiny.scene(), relighting::Strategy{});
         pairs[i].budget = coefficients(100);
         auto light = test::random_lighting(8, i);
         if (i % 2 == 1) {

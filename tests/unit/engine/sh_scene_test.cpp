@@ -1,4 +1,6 @@
 // The engine over a transport in spherical harmonics: what holds for wavelets holds here.
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
@@ -12,9 +14,9 @@
 namespace relume::engine {
 namespace {
 
-using wire::Budget;
-using wire::Method;
-using wire::Priority;
+using relighting::Budget;
+using relighting::Method;
+using relighting::Priority;
 
 constexpr std::uint32_t kOrder = basis::kMaxShOrder;
 

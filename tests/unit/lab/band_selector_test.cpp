@@ -1,6 +1,7 @@
 // The selectors of [Overbeck06T 6.2] in their own measure.
 #include "tests/lab/methods/band_selector.h"
 
+#include "protocol/relighting/strategy.h"
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
 
@@ -35,7 +36,7 @@ class SelectorTest
 
     void rank() {
         ranking_.rank(*scene_.scene(), lighting_,
-                      scene_.scene()->weights(wire::Priority::area));
+                      scene_.scene()->weights(relighting::Priority::area));
     }
     [[nodiscard]] BandChoice choice() const {
         return {.scene = *scene_.scene(),
@@ -112,7 +113,7 @@ TEST(BandSelector, AtRestNothingIsReset) {
     lighting.set_target(test::random_lighting(kFace, 1));
     lighting.apply_all();
     engine::Ranking ranking;
-    ranking.rank(*scene.scene(), lighting, scene.scene()->weights(wire::Priority::area));
+    ranking.rank(*scene.scene(), lighting, scene.scene()->weights(relighting::Priority::area));
     const BandChoice choice{.scene = *scene.scene(),
                             .lighting = lighting,
                             .ranking = ranking,

@@ -1,5 +1,5 @@
 // What mute and solo do to the image: the light's linear law holds for the parts.
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 #include "server/net/environment_library.h"
 #include "server/net/relighter.h"
 #include "tests/unit/net/tiny_scenes.h"
@@ -43,7 +43,7 @@ class LightSwitches : public testing::Test {
     // `lights`. The background is the environment where `background` says so, else black.
     std::vector<float> image_with(const json& switches,
                                   const char* background = "colour") const {
-        wire::SessionState state;
+        wire::RoomState state;
         apply_patch(state, kTwoLights, wire::Limits{});
         apply_patch(state,
                     {{"lights", switches},

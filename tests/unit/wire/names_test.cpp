@@ -1,4 +1,4 @@
-#include "protocol/wire/names.h"
+#include "protocol/base/text/names.h"
 
 #include "tests/unit/wire/vectors.h"
 
@@ -10,10 +10,10 @@ namespace {
 TEST(Names, SharedCases) {
     const nlohmann::json cases = vectors_from_file("names");
     for (const auto& name : cases.at("valid")) {
-        EXPECT_TRUE(is_name(name.get<std::string>())) << name;
+        EXPECT_TRUE(text::is_name(name.get<std::string>())) << name;
     }
     for (const auto& name : cases.at("invalid")) {
-        EXPECT_FALSE(is_name(name.get<std::string>())) << name;
+        EXPECT_FALSE(text::is_name(name.get<std::string>())) << name;
     }
 }
 

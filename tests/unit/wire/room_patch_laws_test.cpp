@@ -1,6 +1,6 @@
 // Laws of patches over random histories.
 #include "protocol/wire/messages.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 #include "tests/unit/wire/vectors.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ json rotation_patch() {
 }
 
 // A patch that `state` takes.
-json valid_patch(const SessionState& state) {
+json valid_patch(const RoomState& state) {
     json patch = json::object();
     if (chance()) {
         patch["environment"] = {{"gain", number(0, 1e6)}};
@@ -131,29 +131,29 @@ json valid_patch(const SessionState& state) {
 }
 
 // A state some edits away from the default one.
-SessionState any_state() {
-    SessionState state;
+RoomState any_state() {
+    RoomState state;
     for (int edits = *rc::gen::inRange(0, 3); edits > 0; --edits) {
         apply_patch(state, valid_patch(state), Limits{});
     }
     return state;
 }
 
-RC_GTEST_PROP(SessionPatchLaws, AStateSurvivesItsJson, ()) {
-    const SessionState state = any_state();
-    RC_ASSERT(session_state_from_json(json::parse(to_json(state).dump())) == state);
+RC_GTEST_PROP(RoomPatchLaws, AStateSurvivesItsJson, ()) {
+    const RoomState state = any_state();
+    RC_ASSERT(room_state_from_json(json::parse(to_json(state).dump())) == state);
 }
 
-RC_GTEST_PROP(SessionPatchLaws, MergingTheNormalisedPatchIntoTheJsonIsApplyingIt, ()) {
-    SessionState state = any_state();
+RC_GTEST_PROP(RoomPatchLaws, MergingTheNormalisedPatchIntoTheJsonIsApplyingIt, ()) {
+    RoomState state = any_state();
     json object = to_json(state);
     object.merge_patch(apply_patch(state, valid_patch(state), Limits{}));
     RC_ASSERT(object == to_json(state));
 }
 
-RC_GTEST_PROP(SessionPatchLaws, ANormalisedPatchIsItsOwnNormalForm, ()) {
-    SessionState state = any_state();
-    SessionState other = state;
+RC_GTEST_PROP(RoomPatchLaws, ANormalisedPatchIsItsOwnNormalForm, ()) {
+    RoomState state = any_state();
+    RoomState other = state;
     const json normalised = apply_patch(state, valid_patch(state), Limits{});
     RC_ASSERT(apply_patch(other, normalised, Limits{}) == normalised);
     RC_ASSERT(other == state);
@@ -161,14 +161,14 @@ RC_GTEST_PROP(SessionPatchLaws, ANormalisedPatchIsItsOwnNormalForm, ()) {
     RC_ASSERT(other == state);
 }
 
-RC_GTEST_PROP(SessionPatchLaws, AMergedPatchHasTheEffectOfAllInTurn, ()) {
-    const SessionState start = any_state();
-    SessionState in_turn = start;
+RC_GTEST_PROP(RoomPatchLaws, AMergedPatchHasTheEffectOfAllInTurn, ()) {
+    const RoomState start = any_state();
+    RoomState in_turn = start;
     json merged = json::object();
     for (int edits = *rc::gen::inRange(1, 6); edits > 0; --edits) {
         merged = merge_patches(merged, apply_patch(in_turn, valid_patch(in_turn), Limits{}));
     }
-    SessionState at_once = start;
+    RoomState at_once = start;
     apply_patch(at_once, merged, Limits{});
     RC_ASSERT(at_once == in_turn);
     json object = to_json(start);
@@ -176,8 +176,8 @@ RC_GTEST_PROP(SessionPatchLaws, AMergedPatchHasTheEffectOfAllInTurn, ()) {
     RC_ASSERT(object == to_json(in_turn));
 }
 
-RC_GTEST_PROP(SessionPatchLaws, MergingIsAssociative, ()) {
-    SessionState state = any_state();
+RC_GTEST_PROP(RoomPatchLaws, MergingIsAssociative, ()) {
+    RoomState state = any_state();
     const json a = apply_patch(state, valid_patch(state), Limits{});
     const json b = apply_patch(state, valid_patch(state), Limits{});
     const json c = apply_patch(state, valid_patch(state), Limits{});
@@ -198,9 +198,9 @@ void spoil(json& value) {
                                     json{{"unknown", 1}});
 }
 
-RC_GTEST_PROP(SessionPatchLaws, ASpoiltPatchIsTakenWholeOrRefusedWhole, ()) {
-    SessionState state = any_state();
-    const SessionState before = state;
+RC_GTEST_PROP(RoomPatchLaws, ASpoiltPatchIsTakenWholeOrRefusedWhole, ()) {
+    RoomState state = any_state();
+    const RoomState before = state;
     json patch = valid_patch(state);
     spoil(patch);
     try {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/wire/limits.h"
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,14 +10,12 @@ namespace relume::wire {
 
 // Checks the whole patch, then applies it, and returns it *normalised*: the rotation a unit
 // quaternion, directions of unit length, a new light with all its fields, no null for a light
-// that is not there, one budget clearing the other. Normalised patches may be merged with each other and into the state's JSON by
-// RFC 7396 alone, and applying one again changes nothing.
+// that is not there, one budget clearing the other. Normalised patches may be merged with each
+// other and into the state's JSON by RFC 7396 alone, and applying one again changes nothing.
 //
 // Throws WireError with a path into the patch, and leaves `state` as it was. Names of
 // environments are checked for form only; whether they exist is for the caller to know.
-nlohmann::json apply_patch(SessionState& state,
-                           const nlohmann::json& patch,
-                           const Limits& limits);
+nlohmann::json apply_patch(RoomState& state, const nlohmann::json& patch, const Limits& limits);
 
 // The patch that has the effect of `first` and then `second`. Both are normalised (or touch
 // disjoint parts): composing merge patches is exact only where a removed object comes back

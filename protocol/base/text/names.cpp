@@ -1,8 +1,8 @@
-#include "protocol/wire/names.h"
+#include "protocol/base/text/names.h"
 
 #include <algorithm>
 
-namespace relume::wire {
+namespace relume::text {
 namespace {
 
 bool is_name_character(char c) {
@@ -35,4 +35,4 @@ bool is_label(std::string_view text) {
     return code_points >= 1 && code_points <= kMaxLabelLength;
 }
 
-}  // namespace relume::wire
+}  // namespace relume::text

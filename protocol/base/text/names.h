@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace relume::wire {
+namespace relume::text {
 
 inline constexpr std::size_t kMaxNameLength = 64;
 inline constexpr std::string_view kNameRule =
@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxLabelLength = 64;
 inline constexpr std::string_view kLabelRule =
     "1 to 64 characters, none of them a control character";
 
-// `text` is valid UTF-8, as parse_json sees to.
+// `text` is valid UTF-8, as strict JSON sees to.
 [[nodiscard]] bool is_label(std::string_view text);
 
-}  // namespace relume::wire
+}  // namespace relume::text

@@ -1,4 +1,4 @@
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
 #include "tests/unit/wire/vectors.h"
 
@@ -35,12 +35,12 @@ bool nearly_equal(const json& a, const json& b) {
     return a == b;
 }
 
-TEST(SessionPatch, SharedCases) {
+TEST(RoomPatch, SharedCases) {
     for (const auto& c : vectors_from_file("patches")) {
         SCOPED_TRACE(c.at("name"));
-        SessionState state = session_state_from_json(c.at("state"));
+        RoomState state = room_state_from_json(c.at("state"));
         EXPECT_TRUE(nearly_equal(to_json(state), c.at("state"))) << to_json(state);
-        const SessionState before = state;
+        const RoomState before = state;
         if (c.contains("error")) {
             const WireError error =
                 wire_error_of([&] { return apply_patch(state, c.at("patch"), Limits{}); });
@@ -57,20 +57,20 @@ TEST(SessionPatch, SharedCases) {
     }
 }
 
-TEST(SessionPatch, NumbersReadBackAsTheyWereSet) {
-    SessionState state;
+TEST(RoomPatch, NumbersReadBackAsTheyWereSet) {
+    RoomState state;
     apply_patch(state, {{"environment", {{"gain", 0.1}, {"tint", {0.2, 0.3, 0.7}}}}}, Limits{});
     const json object = to_json(state);
     EXPECT_EQ(object.at("environment").at("gain").dump(), "0.1");
     EXPECT_EQ(object.at("environment").at("tint").dump(), "[0.2,0.3,0.7]");
 }
 
-TEST(SessionPatch, LightsAreBoundedAfterTheWholePatch) {
+TEST(RoomPatch, LightsAreBoundedAfterTheWholePatch) {
     const json light = {
         {"direction", {0, 1, 0}}, {"angular_radius_degrees", 5}, {"radiance", {1, 1, 1}}};
     Limits limits;
     limits.lights_per_room = 2;
-    SessionState state;
+    RoomState state;
     apply_patch(state, {{"lights", {{"a", light}, {"b", light}}}}, limits);
     const WireError error = wire_error_of([&] {
         return apply_patch(state, {{"lights", {{"c", light}}}}, limits);
@@ -83,9 +83,9 @@ TEST(SessionPatch, LightsAreBoundedAfterTheWholePatch) {
     EXPECT_TRUE(state.lights.contains("c"));
 }
 
-TEST(SessionPatch, DirectionsOfAnyMagnitudeBecomeUnitVectors) {
+TEST(RoomPatch, DirectionsOfAnyMagnitudeBecomeUnitVectors) {
     for (const double scale : {1e-320, 1e-200, 0.5, 1.0, 3.0, 1e200, 1.7e308}) {
-        SessionState state;
+        RoomState state;
         apply_patch(state,
                     {{"lights",
                       {{"a",
@@ -100,8 +100,8 @@ TEST(SessionPatch, DirectionsOfAnyMagnitudeBecomeUnitVectors) {
     }
 }
 
-TEST(SessionPatch, AnglesTurnTheWayTheContractSays) {
-    SessionState state;
+TEST(RoomPatch, AnglesTurnTheWayTheContractSays) {
+    RoomState state;
     // Yaw +90° about +Y takes the source's −Z (its centre) to −X; then pitch acts before yaw.
     apply_patch(state, {{"rotation", {{"yaw_degrees", 90}}}}, Limits{});
     EXPECT_TRUE(state.rotation.rotateVector({0, 0, -1}).equalWithAbsError({-1, 0, 0}, 1e-12));

@@ -1,8 +1,11 @@
-// The state of a room: what its image shows. It changes only by patches (session_patch.h).
+// The state of a room: what its image shows. It changes only by patches (room_patch.h).
 //
 // Numbers are kept as doubles, so that what a client sets is what every client reads back.
 // Plain values without locks: a state belongs to one thread at a time.
 #pragma once
+
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 
 #include <Imath/ImathQuat.h>
 #include <Imath/ImathVec.h>
@@ -16,13 +19,9 @@
 
 namespace relume::wire {
 
-enum class Method : std::uint8_t { nwa, bi, pbi, guarded };
-enum class Priority : std::uint8_t { area, none, transport, benefit };
 enum class BackgroundMode : std::uint8_t { environment, colour, transparent };
 enum class Tone : std::uint8_t { filmic, linear };
 
-[[nodiscard]] std::string_view name_from(Method method);
-[[nodiscard]] std::string_view name_from(Priority priority);
 [[nodiscard]] std::string_view name_from(BackgroundMode mode);
 [[nodiscard]] std::string_view name_from(Tone tone);
 
@@ -67,22 +66,6 @@ struct Background {
     friend bool operator==(const Background&, const Background&) = default;
 };
 
-struct Strategy {
-    Method method = Method::guarded;
-    Priority priority = Priority::benefit;
-
-    friend bool operator==(const Strategy&, const Strategy&) = default;
-};
-
-// Per image: exactly one of `milliseconds` and `coefficients` is set.
-struct Budget {
-    std::optional<double> milliseconds = 8;
-    std::optional<std::uint32_t> coefficients;
-    double target_error = 0;  // relative L2; 0 asks for exact
-
-    friend bool operator==(const Budget&, const Budget&) = default;
-};
-
 struct Display {
     double exposure_stops = 0;
     Tone tone = Tone::filmic;
@@ -90,22 +73,22 @@ struct Display {
     friend bool operator==(const Display&, const Display&) = default;
 };
 
-struct SessionState {
+struct RoomState {
     Environment environment;
     Blend blend;
     Imath::Quatd rotation;  // unit; world direction = rotation · source direction
     std::map<std::string, AreaLight> lights;
     Background background;
-    Strategy strategy;
-    Budget budget;
+    relighting::Strategy strategy;
+    relighting::Budget budget;
     Display display;
 
-    friend bool operator==(const SessionState&, const SessionState&) = default;
+    friend bool operator==(const RoomState&, const RoomState&) = default;
 };
 
 // While any light is solo, muted or not, only solo lights light; environment and blend are
 // dark.
-[[nodiscard]] bool any_solo(const SessionState& state);
+[[nodiscard]] bool any_solo(const RoomState& state);
 // A light that is muted never lights.
 [[nodiscard]] bool lights_now(const AreaLight& light, bool any_solo);
 
@@ -116,9 +99,9 @@ struct SessionState {
 
 // The object of protocol/README.md §3.1. What is not set (names of blend and lights, one of the
 // budgets) is left out, so that the object is what merging all patches so far gives.
-[[nodiscard]] nlohmann::json to_json(const SessionState& state);
+[[nodiscard]] nlohmann::json to_json(const RoomState& state);
 [[nodiscard]] nlohmann::json to_json(const AreaLight& light);
 // Throws WireError as apply_patch does.
-[[nodiscard]] SessionState session_state_from_json(const nlohmann::json& object);
+[[nodiscard]] RoomState room_state_from_json(const nlohmann::json& object);
 
 }  // namespace relume::wire

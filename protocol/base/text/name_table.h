@@ -1,4 +1,4 @@
-// Enumerators and the words they have on the wire, in one place each.
+// Enumerators and their words, in one place each.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace relume::wire {
+namespace relume::text {
 
 template <typename Enum, std::size_t Count>
 class NameTable {
@@ -46,4 +46,4 @@ class NameTable {
     std::array<Entry, Count> entries_;
 };
 
-}  // namespace relume::wire
+}  // namespace relume::text

@@ -1,9 +1,11 @@
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_patch.h"
 
+#include "protocol/relighting/budget.h"
+#include "protocol/relighting/strategy.h"
 #include "protocol/wire/errors.h"
 #include "protocol/wire/light_patch.h"
 #include "protocol/wire/patch_section.h"
-#include "protocol/wire/session_names.h"
+#include "protocol/wire/room_names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -75,14 +77,16 @@ json patch_background(Background& background, const json& patch, const std::stri
     return section.finish();
 }
 
-json patch_strategy(Strategy& strategy, const json& patch, const std::string& path) {
+json patch_strategy(relighting::Strategy& strategy,
+                    const json& patch,
+                    const std::string& path) {
     PatchSection section(patch, path);
-    section.take_word("method", kMethodNames, strategy.method);
-    section.take_word("priority", kPriorityNames, strategy.priority);
+    section.take_word("method", relighting::kMethodNames, strategy.method);
+    section.take_word("priority", relighting::kPriorityNames, strategy.priority);
     return section.finish();
 }
 
-json patch_budget(Budget& budget, const json& patch, const std::string& path) {
+json patch_budget(relighting::Budget& budget, const json& patch, const std::string& path) {
     PatchSection section(patch, path);
     const json* milliseconds = section.reader().find("milliseconds");
     const json* coefficients = section.reader().find("coefficients");
@@ -127,8 +131,8 @@ json patch_display(Display& display, const json& patch, const std::string& path)
 
 }  // namespace
 
-json apply_patch(SessionState& state, const json& patch, const Limits& limits) {
-    SessionState next = state;
+json apply_patch(RoomState& state, const json& patch, const Limits& limits) {
+    RoomState next = state;
     ObjectReader reader(patch, "");
     json normalised = json::object();
     const auto take = [&](const char* key, auto apply) {

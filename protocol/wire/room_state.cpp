@@ -1,9 +1,9 @@
-#include "protocol/wire/session_state.h"
+#include "protocol/wire/room_state.h"
 
 #include "protocol/wire/errors.h"
 #include "protocol/wire/object_reader.h"
-#include "protocol/wire/session_names.h"
-#include "protocol/wire/session_patch.h"
+#include "protocol/wire/room_names.h"
+#include "protocol/wire/room_patch.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,12 +27,6 @@ Imath::Quatd quaternion_about(const Imath::V3d& axis, double degrees) {
 
 }  // namespace
 
-std::string_view name_from(Method method) {
-    return kMethodNames.name(method);
-}
-std::string_view name_from(Priority priority) {
-    return kPriorityNames.name(priority);
-}
 std::string_view name_from(BackgroundMode mode) {
     return kBackgroundModeNames.name(mode);
 }
@@ -49,7 +43,7 @@ Imath::Quatd quaternion_from_yaw_pitch_roll_degrees(double yaw_degrees,
         .normalized();
 }
 
-bool any_solo(const SessionState& state) {
+bool any_solo(const RoomState& state) {
     return std::any_of(state.lights.begin(), state.lights.end(),
                        [](const auto& entry) { return entry.second.solo; });
 }
@@ -73,7 +67,7 @@ json to_json(const AreaLight& light) {
     return object;
 }
 
-json to_json(const SessionState& state) {
+json to_json(const RoomState& state) {
     json blend = {{"amount", state.blend.amount}};
     if (state.blend.name) {
         blend["name"] = *state.blend.name;
@@ -109,13 +103,13 @@ json to_json(const SessionState& state) {
               {"tone", name_from(state.display.tone)}}}};
 }
 
-SessionState session_state_from_json(const json& object) {
+RoomState room_state_from_json(const json& object) {
     ObjectReader reader(object, "");
     for (const char* section : {"environment", "blend", "rotation", "lights", "background",
                                 "strategy", "budget", "display"}) {
         static_cast<void>(reader.require(section));
     }
-    SessionState state;
+    RoomState state;
     Limits limits;
     limits.lights_per_room = kMaxInteger;  // the server that sent it enforces its own
     apply_patch(state, object, limits);
