@@ -2,9 +2,9 @@
 #pragma once
 
 #include "protocol/wire/limits.h"
-#include "server/net/connection_options.h"
-#include "server/net/environment_library.h"
-#include "server/net/rooms.h"
+#include "server/net/library/environment_library.h"
+#include "server/net/rooms/rooms.h"
+#include "server/net/sockets/connection_options.h"
 
 #include <chrono>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // relume-server: serves relit scenes over HTTP and WebSockets until SIGTERM or SIGINT; SIGHUP
 // makes it look for new scenes.
 #include "protocol/base/files/disk_room.h"
+#include "server/net/base/log_sink.h"
 #include "server/net/configuration.h"
-#include "server/net/log_sink.h"
 #include "server/net/server.h"
 
 #include <spdlog/spdlog.h>

@@ -2,14 +2,14 @@
 
 #include "protocol/base/files/atomic_file.h"
 #include "server/engine/band_images.h"
-#include "server/net/access.h"
-#include "server/net/decoder_check.h"
-#include "server/net/http_routes.h"
-#include "server/net/listener.h"
-#include "server/net/scene_watcher.h"
-#include "server/net/static_files.h"
-#include "server/net/upload.h"
-#include "server/net/worker_pool.h"
+#include "server/net/http/access.h"
+#include "server/net/http/decoder_check.h"
+#include "server/net/http/http_routes.h"
+#include "server/net/http/static_files.h"
+#include "server/net/http/upload.h"
+#include "server/net/library/scene_watcher.h"
+#include "server/net/rooms/worker_pool.h"
+#include "server/net/sockets/listener.h"
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>

@@ -3,10 +3,10 @@
 
 #include "protocol/relighting/budget.h"
 #include "server/engine/session.h"
-#include "server/net/display_table.h"
-#include "server/net/frame_composer.h"
-#include "server/net/jpeg_encoder.h"
-#include "server/net/sky_pixels.h"
+#include "server/net/images/display_table.h"
+#include "server/net/images/frame_composer.h"
+#include "server/net/images/jpeg_encoder.h"
+#include "server/net/images/sky_pixels.h"
 #include "tests/bench/light_drag.h"
 
 #include <tbb/task_group.h>

@@ -1,5 +1,5 @@
 // Whatever the request line says, a parsed target keeps what its users rely on.
-#include "server/net/request_target.h"
+#include "server/net/http/request_target.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "server/net/access.h"
+#include "server/net/http/access.h"
 
-#include "server/net/subprotocols.h"
+#include "server/net/http/subprotocols.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "server/net/address_quota.h"
+#include "server/net/peers/address_quota.h"
 
-#include "server/net/client_address.h"
+#include "server/net/peers/client_address.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/net/display_table.h"
+#include "server/net/images/display_table.h"
 
 #include "protocol/wire/display.h"
 

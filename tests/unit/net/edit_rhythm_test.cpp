@@ -1,4 +1,4 @@
-#include "server/net/edit_rhythm.h"
+#include "server/net/rooms/edit_rhythm.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/net/environment_library.h"
+#include "server/net/library/environment_library.h"
 
 #include "protocol/wire/errors.h"
 #include "server/light/procedural_environment.h"

@@ -1,7 +1,7 @@
 // What mute and solo do to the image: the light's linear law holds for the parts.
 #include "protocol/wire/room_patch.h"
-#include "server/net/environment_library.h"
-#include "server/net/relighter.h"
+#include "server/net/library/environment_library.h"
+#include "server/net/rooms/relighter.h"
 #include "tests/unit/net/tiny_scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "server/net/outbox.h"
+#include "server/net/rooms/outbox.h"
 
-#include "server/net/image_forms.h"
+#include "server/net/images/image_forms.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "server/net/request_target.h"
+#include "server/net/http/request_target.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/net/room_pace.h"
+#include "server/net/rooms/room_pace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "server/net/room.h"
+#include "server/net/rooms/room.h"
 
 #include "protocol/wire/half_image.h"
 #include "server/light/light_cubemap.h"
 #include "server/light/light_rig.h"
-#include "server/net/environment_library.h"
-#include "server/net/rooms.h"
+#include "server/net/library/environment_library.h"
+#include "server/net/rooms/rooms.h"
 #include "tests/unit/net/tiny_scenes.h"
 #include "tests/unit/net/waiting.h"
 

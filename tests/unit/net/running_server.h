@@ -2,7 +2,7 @@
 // "small".
 #pragma once
 
-#include "server/net/metrics.h"
+#include "server/net/base/metrics.h"
 #include "server/net/server.h"
 #include "tests/unit/net/hdr_file.h"
 #include "tests/unit/net/tiny_scenes.h"

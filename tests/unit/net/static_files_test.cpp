@@ -1,4 +1,4 @@
-#include "server/net/static_files.h"
+#include "server/net/http/static_files.h"
 
 #include "tests/support/scratch_directory.h"
 

@@ -1,7 +1,7 @@
 // A folder with one small scene, "tiny", made once per test.
 #pragma once
 
-#include "server/net/scene_library.h"
+#include "server/net/library/scene_library.h"
 #include "tests/support/scratch_directory.h"
 #include "tests/support/tiny_transport.h"
 

@@ -1,4 +1,4 @@
-#include "server/net/token_bucket.h"
+#include "server/net/peers/token_bucket.h"
 
 #include <gtest/gtest.h>
 

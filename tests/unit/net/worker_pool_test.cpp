@@ -1,4 +1,4 @@
-#include "server/net/worker_pool.h"
+#include "server/net/rooms/worker_pool.h"
 
 #include <gtest/gtest.h>
 

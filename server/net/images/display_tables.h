@@ -1,0 +1,26 @@
+// The tables of the displays that a room's viewers have.
+#pragma once
+
+#include "protocol/wire/messages.h"
+#include "server/net/images/display_table.h"
+
+#include <list>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace relume::net {
+
+// Keeps the tables that were asked for last, and makes those that are new. Not thread-safe.
+class DisplayTables {
+  public:
+    // One for each choice, in order; they live until the next call. Of what is not chosen,
+    // `room` decides.
+    [[nodiscard]] std::vector<const DisplayTable*> of(
+        std::span<const wire::DisplayChoice> choices, const wire::Display& room);
+
+  private:
+    std::list<std::pair<wire::Display, DisplayTable>> tables_;
+};
+
+}  // namespace relume::net

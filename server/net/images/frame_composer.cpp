@@ -1,0 +1,140 @@
+#include "server/net/images/frame_composer.h"
+
+#include "server/engine/relit_image.h"
+#include "server/light/background.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace relume::net {
+
+namespace {
+
+// Runs of sky pixels per task: enough work to be worth one, few enough to spread an image.
+constexpr std::size_t kLooksPerTask = 64;
+// Tiles per task: their linear pixels, 48 kB, stay in the second-level cache.
+constexpr std::uint32_t kTilesPerRun = 16;
+
+// What the environment shows in these pixels.
+void look(const light::Background& background,
+          const SkyLooks& pixels,
+          std::span<Imath::V3f> radiances) {
+    background.radiances(pixels.directions, std::span(pixels.footprints_sr).first(pixels.count),
+                         radiances);
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+        radiances[i] *= pixels.visible[i];
+    }
+}
+
+}  // namespace
+
+FrameComposer::FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height)
+    : sky_(sky), width_(width), height_(height), background_(sky.size(), Imath::V3f(0)) {}
+
+void FrameComposer::set_background(const wire::Background& background,
+                                   const light::LightRig& rig) {
+    has_alpha_ = background.mode == wire::BackgroundMode::transparent;
+    const bool sees_environment = background.mode == wire::BackgroundMode::environment;
+    const Imath::V3f colour = has_alpha_ ? Imath::V3f(0) : Imath::V3f(background.colour);
+    const light::Background lookup(rig);
+    const std::span<const SkyLooks> looks = sky_.looks();
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, looks.size(), kLooksPerTask),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                const std::span<Imath::V3f> seen =
+                    std::span(background_).subspan(k * light::kLooksPerRun, looks[k].count);
+                if (sees_environment) {
+                    look(lookup, looks[k], seen);
+                    continue;
+                }
+                for (std::size_t i = 0; i < seen.size(); ++i) {
+                    seen[i] = colour * looks[k].visible[i];
+                }
+            }
+        });
+}
+
+// Calls take(index of the first pixel, linear pixels) for parts of rows that together are the
+// image, in no order and at the same time.
+template <typename Take>
+void FrameComposer::for_each_row(const engine::Session& session, const Take& take) const {
+    const transport::TileGrid& image = session.scene().image();
+    const std::uint32_t runs_x = (image.tiles_x() + kTilesPerRun - 1) / kTilesPerRun;
+    tbb::parallel_for(std::uint32_t{0}, runs_x * image.tiles_y(), [&](std::uint32_t run) {
+        const std::uint32_t first = run % runs_x * kTilesPerRun;
+        const engine::TileRun tiles{.row = run / runs_x,
+                                    .first = first,
+                                    .last = std::min(first + kTilesPerRun, image.tiles_x())};
+        const engine::PixelRect pixels = engine::pixels_of(image, tiles);
+        const std::size_t row_floats = std::size_t{3} * pixels.width;
+        thread_local std::vector<float> rgb;
+        rgb.resize(row_floats * pixels.height);
+        session.write_tiles(tiles, rgb);
+        for (std::uint32_t y = 0; y < pixels.height; ++y) {
+            const std::span<float> row = std::span(rgb).subspan(y * row_floats, row_floats);
+            add_background(pixels.left, pixels.top + y, row);
+            take(std::size_t{pixels.top + y} * width_ + pixels.left, row);
+        }
+    });
+}
+
+void FrameComposer::add_background(std::uint32_t x,
+                                   std::uint32_t y,
+                                   std::span<float> rgb) const {
+    const std::uint32_t end = x + static_cast<std::uint32_t>(rgb.size() / 3);
+    for (const SkyRun& run : sky_.runs_of_row(y)) {
+        const std::uint32_t first = std::max(run.x, x);
+        const std::uint32_t last = std::min(run.x + run.count, end);
+        if (first >= last) {
+            continue;
+        }
+        const float* const background = &background_[run.place + (first - run.x)].x;
+        float* const seen = &rgb[std::size_t{3} * (first - x)];
+        for (std::size_t i = 0; i < std::size_t{3} * (last - first); ++i) {
+            seen[i] += background[i];
+        }
+    }
+}
+
+void FrameComposer::compose(const engine::Session& session,
+                            std::span<const DisplayTable* const> displays,
+                            bool half_planes) {
+    const std::size_t pixel_count = std::size_t{width_} * height_;
+    codes_.resize(displays.size());
+    for (std::vector<std::uint8_t>& codes : codes_) {
+        codes.resize(3 * pixel_count);
+    }
+    if (half_planes) {
+        half_.width = width_;
+        half_.height = height_;
+        half_.has_alpha = has_alpha_;
+        half_.values.resize(pixel_count * half_.plane_count());
+    }
+    for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
+        for (std::size_t i = 0; i < displays.size(); ++i) {
+            displays[i]->codes(rgb, std::span(codes_[i]).subspan(3 * index, rgb.size()));
+        }
+        if (half_planes) {
+            put_half(index, rgb);
+        }
+    });
+}
+
+void FrameComposer::put_half(std::size_t index, std::span<const float> rgb) {
+    const std::size_t pixel_count = std::size_t{width_} * height_;
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            half_.values[c * pixel_count + index + i] = wire::half_from_linear(rgb[3 * i + c]);
+        }
+        if (has_alpha_) {
+            half_.values[3 * pixel_count + index + i] =
+                wire::half_from_linear(sky_.coverage()[index + i]);
+        }
+    }
+}
+
+}  // namespace relume::net

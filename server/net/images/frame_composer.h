@@ -1,0 +1,58 @@
+// The whole picture: the relit image over what lies behind the scene.
+#pragma once
+
+#include "protocol/wire/half_image.h"
+#include "protocol/wire/room_state.h"
+#include "server/engine/session.h"
+#include "server/light/light_rig.h"
+#include "server/net/images/display_table.h"
+#include "server/net/images/sky_pixels.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::net {
+
+// Goes through the image a few tiles at a time, from sums to what is encoded, so that pixels in
+// between stay in the cache. Not thread-safe; spreads its work over oneTBB.
+class FrameComposer {
+  public:
+    FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height);
+
+    // What is behind the scene from now on. The rig is looked up only in mode `environment`, at
+    // its full resolution, once per pixel that sees it.
+    void set_background(const wire::Background& background, const light::LightRig& rig);
+    [[nodiscard]] bool has_alpha() const { return has_alpha_; }
+
+    // Puts the session's image and the background together: as code values for a JPEG of each
+    // display, over black where transparent; and, where `half_planes`, as linear radiance in
+    // half floats, premultiplied where transparent.
+    void compose(const engine::Session& session,
+                 std::span<const DisplayTable* const> displays,
+                 bool half_planes);
+    // Of the last `compose`, display by display: interleaved, row by row from the top,
+    // 3·width·height.
+    [[nodiscard]] std::span<const std::uint8_t> codes(std::size_t display) const {
+        return codes_[display];
+    }
+    [[nodiscard]] const wire::HalfImage& half_image() const { return half_; }
+
+  private:
+    template <typename Take>
+    void for_each_row(const engine::Session& session, const Take& take) const;
+    // Pixels from `index` on.
+    void put_half(std::size_t index, std::span<const float> rgb);
+    // To the pixels of a row from x on.
+    void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
+
+    const SkyPixels& sky_;
+    std::uint32_t width_;
+    std::uint32_t height_;
+    bool has_alpha_ = false;
+    std::vector<Imath::V3f> background_;  // of every sky pixel, times its visible part
+    std::vector<std::vector<std::uint8_t>> codes_;
+    wire::HalfImage half_;
+};
+
+}  // namespace relume::net

@@ -1,0 +1,86 @@
+// The environments a server offers: by formula, from the operator's folder, and uploaded.
+#pragma once
+
+#include "server/light/environment_import.h"
+#include "server/net/library/environment.h"
+#include "server/net/library/resident_cache.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace relume::net {
+
+struct EnvironmentBounds {
+    std::size_t uploads = 32;
+    std::size_t upload_memory_bytes = std::size_t{2} << 30;  // all uploads, decoded
+    std::size_t cache_bytes = std::size_t{1} << 30;  // decoded files and prefiltered maps
+};
+
+// Thread-safe.
+class EnvironmentLibrary {
+  public:
+    static constexpr std::size_t kMaxFiles = 4096;
+
+    // Offers the procedural environments.
+    explicit EnvironmentLibrary(const EnvironmentBounds& bounds);
+
+    // Offers every .hdr and .exr of a folder by the name of its file. Reads no more than their
+    // headers; what cannot be used is named in the log and left out. Throws std::runtime_error
+    // if the folder cannot be read.
+    // `centre` is where the centres of all its maps look.
+    void add_folder(const std::filesystem::path& folder,
+                    light::MapCentre centre = light::MapCentre::negative_z);
+
+    // Offers an uploaded map, in place of an earlier upload of this name. When there are too
+    // many, those that no room uses go first. Throws WireError: unsupported when the name is
+    // taken by what is no upload, too_many when nothing can be dropped.
+    void add_upload(const std::string& name, light::EnvironmentMap map);
+    // Called, without locks held, after an upload has taken the place of an earlier one. Set
+    // before uploads come.
+    void when_replaced(std::function<void(const std::string& name)> tell) {
+        tell_replaced_ = std::move(tell);
+    }
+    // As add_upload would refuse it by name alone.
+    void check_upload_name(std::string_view name) const;
+
+    // By name; null when there is none. Who holds the result keeps it usable.
+    [[nodiscard]] std::shared_ptr<Environment> find(std::string_view name) const;
+    // In the order of their names.
+    [[nodiscard]] std::vector<Environment::Description> list() const;
+    // Bytes of all that is kept in memory but not by rooms alone.
+    [[nodiscard]] std::size_t resident_bytes() const;
+
+  private:
+    using SharedEnvironment = std::shared_ptr<Environment>;
+    struct Upload {
+        SharedEnvironment environment;
+        std::size_t bytes;
+    };
+
+    void add_file(const std::filesystem::path& file, light::MapCentre centre);
+    void add(Environment::Description description, Environment::Load load);
+    // True when there was an earlier one.
+    bool put_upload(const std::string& name, light::EnvironmentMap map);
+    void drop_unused_upload_locked();
+    [[nodiscard]] bool has_room_for_locked(std::size_t bytes) const;
+
+    const EnvironmentBounds bounds_;
+    const std::shared_ptr<ResidentCache> cache_;
+    std::function<void(const std::string&)> tell_replaced_;
+    mutable std::mutex mutex_;
+    std::map<std::string, SharedEnvironment, std::less<>> environments_;
+    std::uint64_t last_version_ = 0;
+    std::list<Upload> uploads_;  // the oldest in front
+    std::size_t upload_bytes_ = 0;
+};
+
+}  // namespace relume::net

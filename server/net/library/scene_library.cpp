@@ -1,0 +1,168 @@
+#include "server/net/library/scene_library.h"
+
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
+#include "protocol/base/text/names.h"
+#include "protocol/transport/transport.h"
+#include "server/net/library/folder_stamp.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+namespace relume::net {
+
+namespace fs = std::filesystem;
+
+wire::SceneSummary ServedScene::summary() const {
+    const basis::LightBasis& basis = engine->light_basis();
+    const bool is_haar = basis.kind() == basis::LightBasis::Kind::haar;
+    const auto& sampling = engine->transport().manifest().sampling_error;
+    return {.name = name,
+            .kind = std::string(transport::kKind),
+            .width = engine->image().width,
+            .height = engine->image().height,
+            .basis = std::string(transport::name_of(basis.kind())),
+            .order = is_haar ? std::nullopt : std::optional(basis.order()),
+            .face_resolution = engine->face_resolution(),
+            .columns = static_cast<std::uint32_t>(engine->coefficient_count()),
+            .channels = engine->transport().manifest().colour.channels,
+            .bytes = engine->transport().total_bytes(),
+            .memory_bytes = engine->bytes(),
+            .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
+            .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
+                      "budget", "display"}};
+}
+
+namespace {
+
+std::vector<fs::path> scene_directories(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> directories;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        std::error_code not_there;  // it may have gone meanwhile
+        if (entry->path().extension() == ".relume" && entry->is_directory(not_there)) {
+            directories.push_back(entry->path());
+        }
+    }
+    if (error) {
+        throw std::runtime_error(
+            fmt::format("cannot list the scenes in {}: {}", folder.string(), error.message()));
+    }
+    std::sort(directories.begin(), directories.end());
+    return directories;
+}
+
+}  // namespace
+
+bool SceneLibrary::refresh(const fs::path& folder, Patience patience) {
+    std::vector<fs::path> directories = scene_directories(folder);
+    if (directories.size() > kMaxScenes) {
+        if (patience == Patience::none) {
+            spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
+                         directories.size(), kMaxScenes);
+        }
+        directories.resize(kMaxScenes);
+    }
+    for (const fs::path& directory : directories) {
+        seen_.try_emplace(directory);
+    }
+    bool changed = false;
+    for (auto it = seen_.begin(); it != seen_.end();) {
+        auto& [directory, seen] = *it;
+        const std::uint64_t stamp =
+            std::binary_search(directories.begin(), directories.end(), directory)
+                ? folder_stamp(directory)
+                : 0;
+        const bool settled = patience == Patience::none || stamp == seen.stamp;
+        seen.stamp = stamp;
+        if (settled && stamp != seen.followed_stamp) {
+            seen.followed_stamp = stamp;
+            changed = follow(directory) || changed;
+        }
+        it = seen.stamp == 0 && seen.followed_stamp == 0 ? seen_.erase(it) : std::next(it);
+    }
+    return changed;
+}
+
+bool SceneLibrary::follow(const fs::path& directory) {
+    if (seen_.at(directory).stamp == 0) {
+        const std::lock_guard lock(mutex_);
+        spdlog::info("scene_gone directory={:?}", directory.string());
+        return scenes_.erase(directory.stem().string()) != 0;
+    }
+    try {
+        open(directory);
+        return true;
+    } catch (const std::exception& failure) {
+        spdlog::error("scene_broken directory={:?} reason={:?} served_as_before={}",
+                      directory.string(), failure.what(),
+                      find(directory.stem().string()) != nullptr);
+        return false;
+    }
+}
+
+void SceneLibrary::open(const fs::path& directory) {
+    const std::string name = directory.stem().string();
+    if (!text::is_name(name)) {
+        throw std::runtime_error(
+            fmt::format("the name of a scene must be {}", text::kNameRule));
+    }
+    std::shared_ptr<const transport::Transport> transport =
+        transport::Transport::open(directory);
+    SkyPixels sky(*transport);
+    const std::uint64_t bytes = transport->total_bytes();
+    std::shared_ptr<const ServedScene> scene = std::make_shared<const ServedScene>(
+        ServedScene{.name = name,
+                    .directory = directory,
+                    .engine = std::make_shared<const engine::Scene>(std::move(transport)),
+                    .sky = std::move(sky)});
+    const transport::TileGrid& image = scene->engine->image();
+    spdlog::info(
+        "scene_opened name={} width={} height={} face_resolution={} bytes={} memory_bytes={}",
+        name, image.width, image.height, scene->engine->face_resolution(), bytes,
+        scene->engine->bytes());
+    const std::lock_guard lock(mutex_);
+    scenes_[name].swap(scene);  // the former one, if it was the last hold, ends after the lock
+}
+
+std::shared_ptr<const ServedScene> SceneLibrary::find(std::string_view name) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(name);
+    return found == scenes_.end() ? nullptr : found->second;
+}
+
+std::vector<std::shared_ptr<const ServedScene>> SceneLibrary::list() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::shared_ptr<const ServedScene>> all;
+    all.reserve(scenes_.size());
+    for (const auto& [name, scene] : scenes_) {
+        all.push_back(scene);
+    }
+    return all;
+}
+
+std::uint64_t SceneLibrary::total_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& scene : list()) {
+        bytes += scene->engine->transport().total_bytes();
+    }
+    return bytes;
+}
+
+std::optional<std::string> read_thumbnail(const ServedScene& scene) {
+    // Sent to anybody who asks: no link may lead to another file.
+    try {
+        return files::read_regular_file(scene.directory / "view" / "thumbnail.png",
+                                        SceneLibrary::kMaxThumbnailBytes, files::Links::refuse);
+    } catch (const files::FileError&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace relume::net

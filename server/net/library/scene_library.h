@@ -1,0 +1,72 @@
+// The scenes a server offers: every NAME.relume in one folder.
+#pragma once
+
+#include "protocol/wire/scene_summary.h"
+#include "server/engine/scene.h"
+#include "server/net/images/sky_pixels.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace relume::net {
+
+// Immutable once made, and independent of the files it was made from: a scene whose directory
+// is replaced or removed lives as long as somebody holds it.
+struct ServedScene {
+    std::string name;
+    std::filesystem::path directory;
+    std::shared_ptr<const engine::Scene> engine;
+    SkyPixels sky;
+
+    // What clients are told of it.
+    [[nodiscard]] wire::SceneSummary summary() const;
+};
+
+// Thread-safe.
+class SceneLibrary {
+  public:
+    static constexpr std::size_t kMaxScenes = 1024;
+    static constexpr std::size_t kMaxThumbnailBytes = std::size_t{4} << 20;
+
+    // Whether a change must look the same at two refreshes before it is followed: a directory
+    // that is still being copied is not opened at every look.
+    enum class Patience : std::uint8_t { none, until_settled };
+
+    // Offers what lies in the folder now: opens and checks what is new or has changed, one
+    // after another, each in parallel within; forgets what is gone. One that cannot be opened
+    // is named in the log once, and left out or offered on as it was. True if anything is
+    // offered that was not, or the other way round. Throws std::runtime_error if the folder
+    // itself cannot be read. One thread at a time refreshes, while others ask.
+    bool refresh(const std::filesystem::path& folder, Patience patience = Patience::none);
+
+    // By name; null when there is none.
+    [[nodiscard]] std::shared_ptr<const ServedScene> find(std::string_view name) const;
+    // In the order of their names.
+    [[nodiscard]] std::vector<std::shared_ptr<const ServedScene>> list() const;
+    [[nodiscard]] std::uint64_t total_bytes() const;
+
+  private:
+    // Of a directory, at the last refresh.
+    struct Seen {
+        std::uint64_t stamp = 0;  // 0: it is gone
+        std::uint64_t followed_stamp = 0;
+    };
+    [[nodiscard]] bool follow(const std::filesystem::path& directory);
+    void open(const std::filesystem::path& directory);
+
+    std::map<std::filesystem::path, Seen> seen_;  // of who refreshes
+    mutable std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<const ServedScene>, std::less<>> scenes_;
+};
+
+// The scene's picture for lists, a PNG file; nothing if the bake left none or a too large one.
+[[nodiscard]] std::optional<std::string> read_thumbnail(const ServedScene& scene);
+
+}  // namespace relume::net

@@ -1,0 +1,29 @@
+// The environments that a session's state names.
+#pragma once
+
+#include "protocol/wire/room_state.h"
+#include "server/net/library/environment_library.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+
+namespace relume::net {
+
+// `blend` is null when the state names none.
+struct NamedEnvironments {
+    std::shared_ptr<Environment> environment;
+    std::shared_ptr<Environment> blend;
+
+    friend bool operator==(const NamedEnvironments&, const NamedEnvironments&) = default;
+};
+
+// Those of the state that a normalised patch has led to. What the patch does not name stays as
+// it was; an upload that it names again is taken in its latest version. Throws
+// wire::WireError (unknown_name).
+[[nodiscard]] NamedEnvironments environments_after(const NamedEnvironments& before,
+                                                   const wire::RoomState& state,
+                                                   const nlohmann::json& patch,
+                                                   const EnvironmentLibrary& library);
+
+}  // namespace relume::net

@@ -1,0 +1,93 @@
+// All rooms of a server, by name.
+#pragma once
+
+#include "protocol/wire/errors.h"
+#include "server/net/peers/address_quota.h"
+#include "server/net/rooms/room.h"
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace relume::net {
+
+struct RoomsOptions {
+    RoomOptions room;
+    // A room that everybody left is kept so long.
+    std::chrono::milliseconds linger{std::chrono::minutes(5)};
+    // What a new room's state begins with.
+    std::string environment = "sky-afternoon";
+    // Of all rooms, those that clients of one address have made.
+    std::size_t rooms_per_address = 32;
+};
+
+// Thread-safe. As a work item it drops rooms that have been empty for long.
+class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
+  public:
+    // Throws std::runtime_error if the library has no environment of that name.
+    Rooms(const SceneLibrary& scenes,
+          const EnvironmentLibrary& environments,
+          RoomThreads threads,
+          Metrics& metrics,
+          RoomsOptions options);
+
+    // Joins the room, making it if there is none, or if it is empty and its scene has been
+    // replaced. Otherwise the reason to close with:
+    // unknown_scene, room_full, too_many_rooms, shutting_down. `client` is the quota_key of who
+    // asks; a room that it makes counts as its own until the room is dropped.
+    [[nodiscard]] std::variant<std::shared_ptr<Room>, wire::CloseCode> enter(
+        const std::string& name,
+        const std::optional<std::string>& scene,
+        const Room::SharedOutbox& viewer,
+        const std::string& client);
+    void leave(Room& room, const Room::SharedOutbox& viewer);
+
+    // Scenes have been added, replaced or removed. A room keeps the scene it began with as long
+    // as anybody is in it; one that is empty gives way.
+    void drop_outdated();
+
+    // As Room::environment_replaced, for all.
+    void environment_replaced(const std::string& name);
+
+    // No new rooms or clients, no more edits.
+    void stop_edits();
+    [[nodiscard]] bool has_pending_edit() const;
+    void close_all(wire::CloseCode code);
+
+    void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
+
+  private:
+    [[nodiscard]] std::shared_ptr<Room> make_room(const std::string& name,
+                                                  std::shared_ptr<const ServedScene> scene);
+    struct Entry {
+        std::shared_ptr<Room> room;
+        std::string creator;
+        AddressQuota::Place place;
+    };
+    // Of one creator, or of all.
+    [[nodiscard]] bool drop_longest_empty_locked(const std::optional<std::string>& creator);
+    // Null when there is none left, even after dropping an empty one.
+    [[nodiscard]] AddressQuota::Place place_for_room_locked(const std::string& creator);
+    // Its scene is no longer what is offered under that name.
+    [[nodiscard]] bool is_outdated(const Room& room) const;
+
+    const SceneLibrary& scenes_;
+    const EnvironmentLibrary& environments_;
+    const RoomThreads threads_;
+    Metrics& metrics_;
+    const RoomsOptions options_;
+    const std::shared_ptr<Environment> first_environment_;
+
+    mutable std::mutex mutex_;
+    std::map<std::string, Entry, std::less<>> rooms_;
+    AddressQuota by_address_;
+    bool stopped_ = false;
+};
+
+}  // namespace relume::net

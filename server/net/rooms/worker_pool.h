@@ -1,0 +1,122 @@
+// The threads that relight and encode, so that those that serve sockets never wait for them.
+#pragma once
+
+#include "server/net/base/clock.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace relume::net {
+
+// Until when an item's share of the workers is used up by what it has taken: as if, of so many
+// items that compete, each were given its part of every moment. Of the pool.
+class WorkAccount {
+  public:
+    // What was measured, from `begin` on, while so many competed.
+    void charge(Clock::time_point begin, Clock::duration taken, std::size_t competitors);
+    [[nodiscard]] Clock::time_point paid_until() const { return paid_until_; }
+
+  private:
+    Clock::time_point paid_until_{};
+};
+
+// What a worker runs, one short slice at a time; it queues itself again if more is left.
+class WorkItem {
+  public:
+    WorkItem() = default;
+    WorkItem(const WorkItem&) = delete;
+    WorkItem& operator=(const WorkItem&) = delete;
+    virtual ~WorkItem() = default;
+
+    // Items that give the same, and not null, may be run together.
+    [[nodiscard]] virtual const void* company() const noexcept { return nullptr; }
+    // With others of its company that were waiting too and are off the queue now.
+    virtual void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept = 0;
+
+  private:
+    friend class WorkerPool;
+    WorkAccount account_;
+};
+
+// Edits that someone waits for go before images that merely get better.
+enum class WorkPriority : std::uint8_t { edit, refinement };
+
+// Thread-safe. The queue is in the order of deadlines: an edit's is when it was read, a
+// refinement's some while after it was queued, so that edits go first and do not starve it. But
+// no deadline is earlier than the item's account is paid: who takes long slices comes less
+// often, and who takes short ones never waits for more than those that run. An item is in the
+// queue at most once, so the queue is never longer than there are items. With nothing queued no
+// thread wakes.
+class WorkerPool {
+  public:
+    // What a refinement waits at most while there are edits.
+    static constexpr std::chrono::milliseconds kRefinementPatience{100};
+
+    // How many items of one company, all of one priority, are taken off the queue together at
+    // most.
+    struct LargestCompany {
+        std::size_t edits = 1;
+        std::size_t refinements = 1;
+    };
+    WorkerPool(std::size_t threads, LargestCompany largest_company);
+    WorkerPool(const WorkerPool&) = delete;
+    WorkerPool& operator=(const WorkerPool&) = delete;
+    // As `stop`.
+    ~WorkerPool();
+
+    // Queues the item, or moves it forward if it waits with a later deadline.
+    void enqueue(std::shared_ptr<WorkItem> item,
+                 WorkPriority priority,
+                 Clock::time_point since = Clock::now());
+    // Queues the item after a while; replaces an earlier delay of the same item.
+    void enqueue_after(std::shared_ptr<WorkItem> item,
+                       WorkPriority priority,
+                       Clock::duration delay);
+    // Forgets what is queued, waits for what runs. Items queued afterwards are dropped.
+    void stop();
+
+  private:
+    struct Waiting {
+        Clock::time_point deadline;  // as it was asked for
+        Clock::time_point place;     // in the queue: no earlier than the account is paid
+        WorkPriority priority;
+        std::shared_ptr<WorkItem> item;
+    };
+    struct Delayed {
+        Clock::time_point due;
+        WorkPriority priority;
+        std::shared_ptr<WorkItem> item;
+    };
+
+    void work();
+    void enqueue_locked(std::shared_ptr<WorkItem> item,
+                        WorkPriority priority,
+                        Clock::time_point since);
+    void insert_locked(std::shared_ptr<WorkItem> item,
+                       WorkPriority priority,
+                       Clock::time_point deadline);
+    void release_due_locked(Clock::time_point now);
+    // Items that have run together for so long.
+    void charge_locked(std::span<const std::shared_ptr<WorkItem>> items,
+                       Clock::time_point begin,
+                       Clock::duration taken);
+    // The first of the queue, and who may go with it; nothing when it is empty.
+    [[nodiscard]] std::vector<std::shared_ptr<WorkItem>> next_locked();
+
+    const LargestCompany largest_company_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::vector<Waiting> queue_;  // by place; of equals the earlier queued first
+    std::vector<Delayed> delayed_;
+    std::size_t running_ = 0;
+    bool stopping_ = false;
+    std::vector<std::jthread> threads_;
+};
+
+}  // namespace relume::net
