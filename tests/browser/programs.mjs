@@ -41,7 +41,7 @@ export class Server {
     }
 
     /** Resolves once the server says that it is ready. */
-    async start() {
+    async start(...options) {
         const child = spawn(
             setting("STUDIO_SERVER"),
             [
@@ -51,6 +51,7 @@ export class Server {
                 `127.0.0.1:${this.port}`,
                 "--web-root",
                 setting("STUDIO_WEB_ROOT"),
+                ...options,
             ],
             { stdio: ["ignore", "pipe", "pipe"] },
         );

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { largestCodeDistance, readExr, relativeL2 } from "./images.mjs";
 import { radianceFile } from "./maps.mjs";
-import { relume } from "./programs.mjs";
+import { relume, Server } from "./programs.mjs";
 import { output, Suite } from "./suite.mjs";
 
 describe("studio page", { timeout: 240_000 }, () => {
@@ -187,6 +187,35 @@ describe("studio page", { timeout: 240_000 }, () => {
         await page.page
             .locator('.environment[aria-pressed="true"]', { hasText: "My-light-1" })
             .waitFor();
+    });
+
+    it("joins by a token that stands in no request's address", async () => {
+        const token = "geheim/ü+?";
+        const guarded = await Server.onFreePort();
+        await guarded.start("--token", token);
+        try {
+            const query = `scene=${suite.scene}&room=token`;
+            const stranger = await suite.open(query, undefined, guarded);
+            await stranger.until((relume) => relume.status === "refused");
+            const hash = `#token=${encodeURIComponent(token)}`;
+            const page = await suite.open("", undefined, guarded);
+            const addresses = [];
+            page.page.on("request", (request) => addresses.push(request.url()));
+            page.page.on("websocket", (socket) => addresses.push(socket.url()));
+            await page.page.goto(`${guarded.origin}/?${query}${hash}`);
+            await page.page.reload();
+            await page.untilExact();
+            await page.bring("mine.hdr", radianceFile(64, 32));
+            await page.until((relume) => relume.state.environment.name === "mine");
+            assert.ok(addresses.some((address) => address.startsWith("ws:")));
+            const wire = addresses.map((address) => decodeURIComponent(address.split("#")[0]));
+            assert.deepEqual(
+                wire.filter((address) => address.includes("geheim")),
+                [],
+            );
+        } finally {
+            await guarded.stop("SIGTERM");
+        }
     });
 
     it("comes back by itself after the server was killed and started again", async () => {

@@ -37,8 +37,8 @@ export class Suite {
         });
     }
 
-    async open(query, viewport) {
-        const address = `${this.server.origin}/?${query}`;
+    async open(query, viewport, { origin } = this.server) {
+        const address = `${origin}/?${query}`;
         const page = await StudioPage.open(this.#browser, address, viewport);
         this.#open.push(page);
         return page;

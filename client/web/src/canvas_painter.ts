@@ -1,4 +1,4 @@
-import { DisplayTable, pixelsFromHalves, redevelopedCodes, sameDisplay } from "./display";
+import { DisplayTable, pixelsFromHalves } from "./display";
 import type { DecodedImage } from "./image_decoder";
 import type { Painter } from "./painter";
 import type { DisplayState } from "./wire/state";
@@ -9,8 +9,6 @@ export class CanvasPainter implements Painter {
     readonly largestSide = Infinity;
     private readonly table = new DisplayTable();
     private image: DecodedImage | null = null;
-    /** Pixels of a JPEG as they came. */
-    private jpeg: ImageData | null = null;
 
     constructor(
         private readonly canvas: HTMLCanvasElement,
@@ -24,17 +22,12 @@ export class CanvasPainter implements Painter {
             this.canvas.height = height;
         }
         this.image = image;
-        this.jpeg = null;
         // A bitmap is closed by its owner, so it is drawn here and never again.
         if (image.kind === "jpeg") this.context.drawImage(image.bitmap, 0, 0);
     }
 
-    paint(display: DisplayState, jpegDisplay: DisplayState): void {
-        if (this.image === null) return;
-        if (this.image.kind === "jpeg") {
-            this.paintJpeg(display, jpegDisplay);
-            return;
-        }
+    paint(display: DisplayState): void {
+        if (this.image?.kind !== "half") return;
         const { width, height } = this.image.header;
         this.table.update(display);
         this.context.putImageData(
@@ -42,16 +35,6 @@ export class CanvasPainter implements Painter {
             0,
             0,
         );
-    }
-
-    private paintJpeg(display: DisplayState, jpegDisplay: DisplayState): void {
-        if (this.jpeg === null && sameDisplay(display, jpegDisplay)) return; // drawn as it came
-        const { width, height } = this.canvas;
-        this.jpeg ??= this.context.getImageData(0, 0, width, height);
-        const codes = redevelopedCodes(jpegDisplay, display);
-        const image = new ImageData(width, height);
-        image.data.set(this.jpeg.data.map((code, i) => (i % 4 === 3 ? code : codes[code]!)));
-        this.context.putImageData(image, 0, 0);
     }
 
     read(): Uint8ClampedArray {

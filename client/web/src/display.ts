@@ -8,6 +8,10 @@ import type { DisplayState, Tone } from "./wire/state";
 export const kMinExposureStops = -20;
 export const kMaxExposureStops = 20;
 
+export function sameDisplay(a: DisplayState, b: DisplayState): boolean {
+    return a.exposure_stops === b.exposure_stops && a.tone === b.tone;
+}
+
 export function clampExposure(stops: number): number {
     return Math.min(kMaxExposureStops, Math.max(kMinExposureStops, stops));
 }
@@ -19,12 +23,6 @@ function clampToUnit(value: number): number {
 /** Filmic tone curve [Narkowicz16]. */
 function filmic(x: number): number {
     return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
-}
-
-/** The x ≥ 0 with filmic(x) = y, for y in [0, 1]. */
-function linearFromFilmic(y: number): number {
-    const [a, b, c] = [2.51 - 2.43 * y, 0.03 - 0.59 * y, -0.14 * y];
-    return (Math.sqrt(b * b - 4 * a * c) - b) / (2 * a);
 }
 
 export function srgbFromLinear(x: number): number {
@@ -41,31 +39,6 @@ export function displayFromLinear(linear: number, display: DisplayState): number
     // Beyond this filmic is 1 to double precision, and x² cannot overflow.
     const x = Math.min(Math.max(linear * 2 ** display.exposure_stops, 0), 1e12);
     return srgbFromLinear(clampToUnit(display.tone === "filmic" ? filmic(x) : x));
-}
-
-/** A linear channel that shows so; the smallest of those where the curve has clipped. */
-export function linearFromDisplay(value: number, display: DisplayState): number {
-    const curve = linearFromSrgb(value);
-    const x = display.tone === "filmic" ? linearFromFilmic(curve) : curve;
-    return x / 2 ** display.exposure_stops;
-}
-
-export function sameDisplay(a: DisplayState, b: DisplayState): boolean {
-    return a.exposure_stops === b.exposure_stops && a.tone === b.tone;
-}
-
-/**
- * Code values developed once, for a JPEG that came in one display and shows in another: exact to
- * the rounding of eight bits, and where nothing has clipped.
- */
-export function redevelopedCodes(
-    from: DisplayState,
-    to: DisplayState,
-): Uint8Array<ArrayBuffer> {
-    return Uint8Array.from({ length: 256 }, (_, code) => {
-        const linear = linearFromDisplay(code / 255, from);
-        return Math.floor(255 * displayFromLinear(linear, to) + 0.5);
-    });
 }
 
 /** Code value 0 … 255 of every half float, by its bits. */

@@ -1,7 +1,7 @@
 /**
  * Exposure and tone curve are each viewer's own; the room has a default, which a viewer sees who
- * has chosen none. They act here at once: on linear light where the image is settled, else on the
- * JPEG that came with the room's display.
+ * has chosen none. On a settled image they act here at once, and the server hears of the choice
+ * when the hand rests; while JPEGs show, which come developed, it hears at once.
  */
 import { clampExposure, sameDisplay } from "./display";
 import type { ImageView } from "./image_view";
@@ -9,15 +9,20 @@ import type { Session } from "./session";
 import { Signal } from "./signal";
 import type { DisplayState } from "./wire/state";
 
+const kRestMilliseconds = 180;
+
 export class Exposure {
     readonly changed = new Signal<DisplayState>();
     private mine: DisplayState | null = null;
+    private timer = 0;
 
     constructor(
         private readonly session: Session,
         private readonly view: ImageView,
     ) {
         session.stateChanged.listen(() => this.publish());
+        // A new connection knows of no choice.
+        session.opened.listen(() => this.tell());
     }
 
     get display(): DisplayState {
@@ -37,8 +42,7 @@ export class Exposure {
     set(change: Partial<DisplayState>): void {
         const display = { ...this.display, ...change };
         display.exposure_stops = clampExposure(display.exposure_stops);
-        this.mine = display;
-        this.publish();
+        this.choose(display);
     }
 
     step(stops: number): void {
@@ -56,12 +60,23 @@ export class Exposure {
 
     /** Gives up what this viewer has chosen. */
     followRoom(): void {
-        this.mine = null;
+        this.choose(null);
+    }
+
+    private choose(display: DisplayState | null): void {
+        this.mine = display;
+        clearTimeout(this.timer);
+        if (this.view.settled === null) this.tell();
+        else this.timer = window.setTimeout(() => this.tell(), kRestMilliseconds);
         this.publish();
     }
 
+    private tell(): void {
+        this.session.chooseDisplay(this.mine);
+    }
+
     private publish(): void {
-        this.view.setDisplay(this.display, this.roomDisplay);
+        this.view.setDisplay(this.display);
         this.changed.send(this.display);
     }
 }

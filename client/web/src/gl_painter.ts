@@ -1,4 +1,3 @@
-import { redevelopedCodes } from "./display";
 import type { DecodedImage } from "./image_decoder";
 import { kHalfFragmentShader, kJpegFragmentShader, kVertexShader } from "./image_shader";
 import type { Painter } from "./painter";
@@ -9,7 +8,6 @@ interface Program {
     size: WebGLUniformLocation | null;
     scale: WebGLUniformLocation | null;
     filmic: WebGLUniformLocation | null;
-    codes: WebGLUniformLocation | null;
 }
 
 export class GlPainter implements Painter {
@@ -18,9 +16,6 @@ export class GlPainter implements Painter {
     private readonly half: Program;
     private readonly jpeg: Program;
     private readonly texture: WebGLTexture;
-    /** On unit 1: 256 × 1 code values. */
-    private readonly codesTexture: WebGLTexture;
-    private codesKey = "";
     private kind: DecodedImage["kind"] = "jpeg";
 
     /** Throws where the context cannot do what is needed. */
@@ -31,10 +26,14 @@ export class GlPainter implements Painter {
         this.largestSide = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
         this.half = this.makeProgram(kHalfFragmentShader);
         this.jpeg = this.makeProgram(kJpegFragmentShader);
-        gl.activeTexture(gl.TEXTURE1);
-        this.codesTexture = this.makeTexture();
-        gl.activeTexture(gl.TEXTURE0);
-        this.texture = this.makeTexture();
+        this.texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, this.texture);
+        for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
+            gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
+        }
+        for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
+            gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
+        }
         gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
     }
 
@@ -64,23 +63,21 @@ export class GlPainter implements Painter {
         }
     }
 
-    paint(display: DisplayState, jpegDisplay: DisplayState): void {
+    paint(display: DisplayState): void {
         const { gl, canvas } = this;
         const program = this.kind === "half" ? this.half : this.jpeg;
-        if (this.kind === "jpeg") this.loadCodes(jpegDisplay, display);
         gl.viewport(0, 0, canvas.width, canvas.height);
         gl.useProgram(program.program);
         gl.uniform2f(program.size, canvas.width, canvas.height);
         gl.uniform1f(program.scale, 2 ** display.exposure_stops);
         gl.uniform1i(program.filmic, display.tone === "filmic" ? 1 : 0);
-        gl.uniform1i(program.codes, 1);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    read(): Uint8ClampedArray {
+    read(display: DisplayState): Uint8ClampedArray {
         const { gl, canvas } = this;
-        // The drawing buffer is emptied once shown, so draw again in the same task.
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        // The drawing buffer is emptied once shown, so paint again in the same task.
+        this.paint(display);
         const rowBytes = canvas.width * 4;
         const bottomUp = new Uint8Array(rowBytes * canvas.height);
         gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bottomUp);
@@ -90,31 +87,6 @@ export class GlPainter implements Painter {
             pixels.set(bottomUp.subarray(from, from + rowBytes), row * rowBytes);
         }
         return pixels;
-    }
-
-    private makeTexture(): WebGLTexture {
-        const { gl } = this;
-        const texture = gl.createTexture();
-        gl.bindTexture(gl.TEXTURE_2D, texture);
-        for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-            gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
-        }
-        for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
-            gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
-        }
-        return texture;
-    }
-
-    private loadCodes(from: DisplayState, to: DisplayState): void {
-        const key = JSON.stringify([from, to]);
-        if (key === this.codesKey) return;
-        this.codesKey = key;
-        const { gl } = this;
-        const codes = redevelopedCodes(from, to);
-        gl.activeTexture(gl.TEXTURE1);
-        gl.bindTexture(gl.TEXTURE_2D, this.codesTexture);
-        gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, 256, 1, 0, gl.RED, gl.UNSIGNED_BYTE, codes);
-        gl.activeTexture(gl.TEXTURE0);
     }
 
     private makeProgram(fragmentSource: string): Program {
@@ -140,7 +112,6 @@ export class GlPainter implements Painter {
             size: gl.getUniformLocation(program, "size"),
             scale: gl.getUniformLocation(program, "scale"),
             filmic: gl.getUniformLocation(program, "filmic"),
-            codes: gl.getUniformLocation(program, "codes"),
         };
     }
 }

@@ -26,17 +26,11 @@ void main() {
     colour = vec4(mix(curve, 12.92 * x, lessThanEqual(x, vec3(0.0031308))), 1.0);
 }`;
 
-/** `codes` is redevelopedCodes of display.ts. */
 export const kJpegFragmentShader = `#version 300 es
 precision mediump float;
 uniform sampler2D image;
-uniform sampler2D codes;
 in vec2 texel;
 out vec4 colour;
-float developed(float value) {
-    return texelFetch(codes, ivec2(int(value * 255.0 + 0.5), 0), 0).r;
-}
 void main() {
-    vec3 jpeg = texelFetch(image, ivec2(texel), 0).rgb;
-    colour = vec4(developed(jpeg.r), developed(jpeg.g), developed(jpeg.b), 1.0);
+    colour = vec4(texelFetch(image, ivec2(texel), 0).rgb, 1.0);
 }`;

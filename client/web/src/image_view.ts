@@ -20,8 +20,6 @@ export class ImageView {
     settled: SettledImage | null = null;
     private painter: Painter | null = null;
     private display: DisplayState = { exposure_stops: 0, tone: "filmic" };
-    /** What JPEGs come developed with. */
-    private jpegDisplay = this.display;
 
     constructor(
         private readonly frame: HTMLElement,
@@ -39,7 +37,7 @@ export class ImageView {
         painter.load(image);
         this.header = image.header;
         this.settled = image.kind === "half" ? image : null;
-        painter.paint(this.display, this.jpegDisplay);
+        painter.paint(this.display);
         if (image.kind === "jpeg") image.bitmap.close();
         const { width, height } = image.header;
         this.frame.style.setProperty("--image-width", String(width));
@@ -53,19 +51,15 @@ export class ImageView {
         this.settled = null;
     }
 
-    /** `jpegDisplay` is what JPEGs come developed with: the room's. */
-    setDisplay(display: DisplayState, jpegDisplay: DisplayState): void {
-        const isSame =
-            sameDisplay(display, this.display) && sameDisplay(jpegDisplay, this.jpegDisplay);
-        if (isSame) return;
+    setDisplay(display: DisplayState): void {
+        if (sameDisplay(display, this.display)) return;
         this.display = { ...display };
-        this.jpegDisplay = { ...jpegDisplay };
-        if (this.header !== null) this.painter?.paint(this.display, this.jpegDisplay);
+        if (this.settled !== null) this.painter?.paint(this.display);
     }
 
     /** R G B A bytes of the canvas from the top left; null before the first image. */
     read(): Uint8ClampedArray | null {
-        return this.painter?.read() ?? null;
+        return this.painter?.read(this.display) ?? null;
     }
 
     private makeCanvas(): HTMLCanvasElement {

@@ -8,8 +8,8 @@ export interface Painter {
     readonly largestSide: number;
     /** Makes `image` the one to paint; its pixels may be dropped by the caller afterwards. */
     load(image: DecodedImage): void;
-    /** Paints the image loaded last, as `display` says; a JPEG came as `jpegDisplay` says. */
-    paint(display: DisplayState, jpegDisplay: DisplayState): void;
-    /** R G B A bytes as painted last, from the top left. */
-    read(): Uint8ClampedArray;
+    /** Paints the image loaded last. `display` concerns half images only. */
+    paint(display: DisplayState): void;
+    /** R G B A bytes as painted, from the top left. */
+    read(display: DisplayState): Uint8ClampedArray;
 }

@@ -8,7 +8,7 @@ import { SharedState } from "./shared_state";
 import { Signal } from "./signal";
 import { closeMeaning } from "./wire/close_code";
 import { messageFromText, type Refusal, type Snapshot, WireError } from "./wire/message";
-import type { JsonObject, RoomState } from "./wire/state";
+import type { DisplayState, JsonObject, RoomState } from "./wire/state";
 
 export type SessionStatus =
     | { kind: "connecting"; words: string }
@@ -129,6 +129,12 @@ export class Session {
 
     acknowledge(sequence: number): void {
         this.sendText(JSON.stringify({ type: "ack", sequence }));
+    }
+
+    /** How this page's JPEGs are developed; null leaves it to the room. */
+    chooseDisplay(display: DisplayState | null): void {
+        const { exposure_stops, tone } = display ?? { exposure_stops: null, tone: null };
+        this.sendText(JSON.stringify({ type: "display", exposure_stops, tone }));
     }
 
     private sendEdit(patch: JsonObject): boolean {
