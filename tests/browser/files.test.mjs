@@ -120,6 +120,45 @@ describe("files", { timeout: 240_000 }, () => {
         assert.equal(await page.page.locator(".notice", { hasText: "angular map" }).count(), 0);
     });
 
+    it("shows the map that somebody else has put behind a name, light and picture", async () => {
+        const page = await suite.room("replaced");
+        await page.bring("ours.hdr", radianceFile(64, 32));
+        await page.until((relume) => relume.state.environment.name === "ours");
+        await page.untilExact();
+        const before = await page.shown();
+        const picture = page.page.locator(".environment", { hasText: "ours" }).locator("canvas");
+        const green = () =>
+            picture.evaluate((c) => c.getContext("2d").getImageData(40, 120, 1, 1).data[1]);
+        await page.page.waitForFunction(() => {
+            const { data } = document
+                .querySelector("#light-map canvas")
+                .getContext("2d")
+                .getImageData(20, 150, 1, 1);
+            return data[1] > 0;
+        });
+        const shade = await green();
+        const revision = await page.revision();
+        const other = await suite.room("elsewhere");
+        await other.bring("ours.hdr", radianceFile(64, 32, 30));
+        await other.until((relume) => relume.state.environment.name === "ours");
+        await page.page.bringToFront();
+        await page.until((relume, r) => relume.revision > r && relume.exact, revision);
+        assert.ok(relativeL2((await page.shown()).rgb, before.rgb) > 0.05, "it is relit");
+        await page.page.waitForFunction(
+            ([name, was]) => {
+                const item = [...document.querySelectorAll(".environment")].find((button) =>
+                    button.textContent.includes(name),
+                );
+                const { data } = item
+                    .querySelector("canvas")
+                    .getContext("2d")
+                    .getImageData(40, 120, 1, 1);
+                return data[3] === 255 && data[1] < was - 20;
+            },
+            ["ours", shade],
+        );
+    });
+
     it("brings all back after a restart, the uploaded map from its own copy", async () => {
         const page = await suite.room("restart-upload");
         await page.bring("mine.hdr", radianceFile(64, 32));
