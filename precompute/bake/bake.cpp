@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <mutex>
 #include <optional>
 
@@ -58,6 +59,21 @@ transport::CameraRecord record_of(const scene::Camera& camera, const scene::Worl
             .tan_half_width = camera.tan_half_width(),
             .tan_half_height = camera.tan_half_height()};
 }
+
+// Adds the processor time of all threads until it is destroyed.
+class CpuWatch {
+  public:
+    explicit CpuWatch(double& total) : total_(total) {}
+    CpuWatch(const CpuWatch&) = delete;
+    CpuWatch& operator=(const CpuWatch&) = delete;
+    ~CpuWatch() {
+        total_ += static_cast<double>(std::clock() - start_) / double{CLOCKS_PER_SEC};
+    }
+
+  private:
+    double& total_;
+    std::clock_t start_ = std::clock();
+};
 
 class ProgressCounter {
   public:
@@ -164,6 +180,7 @@ class Bake {
             progress_.add_resumed(pixels_in(image_, first, count));
             return;
         }
+        const CpuWatch cpu(summary_.cpu_seconds);
         {
             const Stopwatch watch(summary_.path_seconds);
             const std::uint32_t last_row = (first + count - 1) / image_.tiles_x() + 1;

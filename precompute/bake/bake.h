@@ -36,6 +36,7 @@ struct BakeSummary {
     double path_seconds = 0;    // camera rays and path tracing
     double row_seconds = 0;     // visibility, projection, quantisation, encoding
     double finish_seconds = 0;  // column tables, manifest, view
+    double cpu_seconds = 0;     // of paths and rows: the process's, whatever else it does
     std::uint64_t visibility_rays = 0;
     std::uint64_t path_rays = 0;
     std::uint32_t shards = 0;

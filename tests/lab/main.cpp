@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
     const std::vector<lab::Command> commands{
         lab::add_run_command(app),          lab::add_pareto_command(app),
         lab::add_terms_command(app),        lab::add_seeds_command(app),
-        lab::add_light_filter_command(app), lab::add_stability_command(app)};
+        lab::add_light_filter_command(app), lab::add_bake_noise_command(app),
+        lab::add_stability_command(app)};
     return relume::program::run_program(app, argc, argv, [&] {
         for (const lab::Command& command : commands) {
             if (command.app->parsed()) {

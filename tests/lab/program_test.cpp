@@ -152,6 +152,52 @@ TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHasAndSaysSo) {
     EXPECT_NE(run.errors().find("partial"), std::string::npos);
 }
 
+TEST_F(ProgramTest, BakeNoiseLeavesFiguresAndPicturesAndKeepsItsReference) {
+    const auto run_with = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"bake-noise",
+                                       "--scenes",
+                                       "box",
+                                       "--environments",
+                                       "sky-noon",
+                                       "--width",
+                                       "16",
+                                       "--height",
+                                       "16",
+                                       "--light-resolution",
+                                       "8",
+                                       "--reference-side",
+                                       "2",
+                                       "--reference-paths",
+                                       "16",
+                                       "--seeds",
+                                       "1",
+                                       "--samples",
+                                       "4",
+                                       "--cache",
+                                       scratch_.path() / "cache",
+                                       "-o",
+                                       scratch_.path() / folder};
+        words.insert(words.end(), more.begin(), more.end());
+        test::Program run(RELUME_LAB, words, scratch_.path(), "relume-lab");
+        EXPECT_EQ(run.wait(), 0) << run.errors();
+        return run.errors();
+    };
+    EXPECT_NE(run_with("first", {}).find("reference of box"), std::string::npos);
+    EXPECT_EQ(run_with("second", {"--before", scratch_.path() / "first", "--crop", "0,0,8,4"})
+                  .find("reference of"),
+              std::string::npos);
+    const auto json =
+        nlohmann::json::parse(content_of(scratch_.path() / "second" / "bake-noise.json"));
+    const nlohmann::json& box = json["scenes"]["box"];
+    EXPECT_GT(box["lights"]["sky-noon"]["edge"]["relative_rmse"], 0);
+    EXPECT_GT(box["visibility_rays"], 0);
+    EXPECT_GT(box["path_rays"], 0);
+    for (const char* folder : {"first", "second"}) {
+        EXPECT_EQ(content_of(scratch_.path() / folder / "box-sky-noon.png").substr(1, 3),
+                  "PNG");
+    }
+}
+
 TEST_F(ProgramTest, AMistakeEndsInWords) {
     test::Program run(RELUME_LAB,
                       {"run", "--transport", "/nowhere.relume", "--environment", "sky-noon"},

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace relume::lab {
 namespace {
@@ -37,15 +38,23 @@ std::array<double, 3> lab_of_pixel(std::span<const float> rgb, const wire::Displ
 
 }  // namespace
 
-double mean_delta_e(std::span<const float> image, std::span<const float> reference) {
+std::vector<double> pixel_delta_e(std::span<const float> image,
+                                  std::span<const float> reference) {
     const wire::Display display = display_for(reference);
-    double sum = 0;
+    std::vector<double> distances;
+    distances.reserve(reference.size() / 3);
     for (std::size_t i = 0; i < reference.size(); i += 3) {
         const auto a = lab_of_pixel(image.subspan(i, 3), display);
         const auto b = lab_of_pixel(reference.subspan(i, 3), display);
-        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        distances.push_back(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
     }
-    return 3 * sum / static_cast<double>(reference.size());
+    return distances;
+}
+
+double mean_delta_e(std::span<const float> image, std::span<const float> reference) {
+    const std::vector<double> distances = pixel_delta_e(image, reference);
+    return std::accumulate(distances.begin(), distances.end(), 0.0) /
+           static_cast<double>(distances.size());
 }
 
 }  // namespace relume::lab

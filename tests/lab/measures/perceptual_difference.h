@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace relume::lab {
 
@@ -11,5 +12,8 @@ namespace relume::lab {
 // RGB of Rec. 709 primaries, 3·width·height values each.
 [[nodiscard]] double mean_delta_e(std::span<const float> image,
                                   std::span<const float> reference);
+// The same of every pixel.
+[[nodiscard]] std::vector<double> pixel_delta_e(std::span<const float> image,
+                                                std::span<const float> reference);
 
 }  // namespace relume::lab
