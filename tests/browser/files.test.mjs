@@ -117,7 +117,8 @@ describe("files", { timeout: 240_000 }, () => {
         await page.page.waitForFunction(() => window.relume.revision >= 2);
         await page.untilExact();
         assert.ok(relativeL2((await page.shown()).rgb, ball.rgb) > 1e-3);
-        assert.equal(await page.page.locator(".notice", { hasText: "angular map" }).count(), 0);
+        const question = page.page.locator(".notice", { hasText: "angular map" });
+        await page.sees(async () => assert.equal(await question.count(), 0));
     });
 
     it("shows the map that somebody else has put behind a name, light and picture", async () => {
@@ -136,7 +137,11 @@ describe("files", { timeout: 240_000 }, () => {
                 .getImageData(20, 150, 1, 1);
             return data[1] > 0;
         });
-        const shade = await green();
+        const shade = await page.sees(async () => {
+            const code = await green();
+            assert.ok(code > 20, `green is ${code}`);
+            return code;
+        });
         const revision = await page.revision();
         const other = await suite.room("elsewhere");
         await other.bring("ours.hdr", radianceFile(64, 32, 30));
@@ -181,7 +186,8 @@ describe("files", { timeout: 240_000 }, () => {
         assert.deepEqual(await page.state(), before);
         assert.ok(relativeL2((await page.shown()).rgb, image.rgb) <= 1e-5);
         await page.page.locator(".notice", { hasText: "back as it was" }).waitFor();
-        assert.equal(await page.button("Bring back the light as it was").count(), 0);
+        const offer = page.button("Bring back the light as it was");
+        await page.sees(async () => assert.equal(await offer.count(), 0));
     });
 
     it("brings all but a map it has no copy of, and goes on offering", async () => {
@@ -205,7 +211,7 @@ describe("files", { timeout: 240_000 }, () => {
         await page.button("Bring back the light as it was").click();
         const said = page.page.locator(".notice", { hasText: "All but the map “theirs”" });
         await said.waitFor();
-        assert.match(await said.innerText(), /no copy/);
+        await page.says(said, /no copy/);
         await page.page.screenshot({ path: output("all-but-the-map.png") });
         await page.untilExact();
         const partly = await page.state();

@@ -25,7 +25,10 @@ describe("lights", { timeout: 240_000 }, () => {
         return page;
     }
 
-    const names = (page) => page.page.locator(".light-name").allInnerTexts();
+    const lists = (page, names) =>
+        page.sees(async () => {
+            assert.deepEqual(await page.page.locator(".light-name").allInnerTexts(), names);
+        });
 
     it("adds lights apart in place and level, a fill larger and two stops down", async () => {
         const page = await withLights("new-lights", 4);
@@ -54,10 +57,10 @@ describe("lights", { timeout: 240_000 }, () => {
 
     it("keeps the lights in their order over a reload, for everyone", async () => {
         const page = await withLights("order", 4);
-        assert.deepEqual(await names(page), order);
+        await lists(page, order);
         await page.page.reload();
         await page.untilExact();
-        assert.deepEqual(await names(page), order);
+        await lists(page, order);
     });
 
     it("renames by double-click, duplicates, and everyone sees it", async () => {
@@ -74,7 +77,7 @@ describe("lights", { timeout: 240_000 }, () => {
         assert.deepEqual(fill.radiance, key.radiance);
         assert.notDeepEqual(fill.direction, key.direction);
         const other = await suite.room("names");
-        assert.deepEqual(await names(other), ["Fenster — 窓", "Fenster — 窓 2"]);
+        await lists(other, ["Fenster — 窓", "Fenster — 窓 2"]);
         // Escape leaves the name alone.
         await page.light("key").locator(".light-row").dblclick();
         await page.page.locator(".light-rename").fill("no");
@@ -101,17 +104,17 @@ describe("lights", { timeout: 240_000 }, () => {
         await press("key", "solo");
         const key = await shown();
         const sign = page.page.locator("#solo-sign");
-        assert.equal(await sign.innerText(), "Solo: key");
+        await page.says(sign, "Solo: key");
         await page.page.screenshot({ path: output("solo.png") });
         const other = await suite.room("solo");
-        assert.equal(await other.page.locator("#solo-sign").innerText(), "Solo: key");
+        await other.says(other.page.locator("#solo-sign"), "Solo: key");
         await page.page.bringToFront();
         await press("key", "muted");
         assert.equal(Math.max(...(await shown())), 0, "mute wins over solo");
         await sign.click();
         await page.until((relume) => !relume.state.lights.key.solo);
         const withoutKey = await shown();
-        assert.ok(await sign.isHidden());
+        await sign.waitFor({ state: "hidden" });
         const sum = key.map((part, i) => part + withoutKey[i]);
         const error = relativeL2(sum, all);
         assert.ok(error < 2e-3, `the parts are ${error} off the whole`);
@@ -128,9 +131,9 @@ describe("lights", { timeout: 240_000 }, () => {
         const grown = await light();
         assert.ok(Math.abs(powerStops(grown) - powerStops(before)) < 1e-3);
         const remark = page.page.locator(".pane-remark");
-        assert.match(await remark.innerText(), /keeps the power/);
+        await page.says(remark, /keeps the power/);
         await page.page.locator('select[aria-label="resize keeps"]').selectOption("radiance");
-        assert.match(await remark.innerText(), /keeps the radiance/);
+        await page.says(remark, /keeps the radiance/);
         await page.type("radius °", "10");
         await page.until(hasRadius, 10);
         assert.deepEqual((await light()).radiance, grown.radiance);
@@ -178,12 +181,12 @@ describe("lights", { timeout: 240_000 }, () => {
             const canvas = document.querySelector("#light-map canvas");
             return canvas.getContext("2d").getImageData(160, 40, 1, 1).data[2] > 20;
         });
-        assert.ok((await brightest()) > 60);
+        await page.sees(async () => assert.ok((await brightest()) > 60));
         await page.type("gain EV", "-10");
         await page.until((relume) => relume.state.environment.gain === 0);
         await page.untilExact();
         await page.page.locator(".environment-dark").waitFor();
-        assert.equal(await brightest(), 0);
+        await page.sees(async () => assert.equal(await brightest(), 0));
     });
 
     it("leaves exposure and tone to each viewer, the room having a default", async () => {
@@ -199,9 +202,9 @@ describe("lights", { timeout: 240_000 }, () => {
         await two.until((relume) => relume.display.exposure_stops === 1);
         await two.page.bringToFront();
         await two.page.keyboard.press("0");
-        assert.equal((await two.display()).exposure_stops, 0);
+        await two.until((relume) => relume.display.exposure_stops === 0);
         await two.button("Back to the room's default").click();
-        assert.equal((await two.display()).exposure_stops, 1);
+        await two.until((relume) => relume.display.exposure_stops === 1);
     });
 
     it("shows a viewer's own exposure while the light moves, too", async () => {

@@ -26,10 +26,14 @@ describe("stage", { timeout: 240_000 }, () => {
         const image = (await page.shown()).header;
         const perPixel = async () => (await frame.boundingBox()).width / image.width;
         await page.page.keyboard.press("f");
-        assert.ok(Math.abs((await perPixel()) - 1) < 1e-3, "one to one");
-        assert.equal(await rendering(), "auto");
+        await page.sees(async () => {
+            assert.ok(Math.abs((await perPixel()) - 1) < 1e-3, "one to one");
+            assert.equal(await rendering(), "auto");
+        });
+        const fits = () =>
+            page.sees(async () => assert.deepEqual(await frame.boundingBox(), fit));
         await page.page.keyboard.press("f");
-        assert.deepEqual(await frame.boundingBox(), fit);
+        await fits();
 
         const at = { x: fit.x + fit.width * 0.25, y: fit.y + fit.height * 0.3 };
         const exposure = (await page.display()).exposure_stops;
@@ -40,8 +44,8 @@ describe("stage", { timeout: 240_000 }, () => {
         await page.page.waitForFunction(
             () => document.getElementById("image-frame").dataset.pixels === "crisp",
         );
-        assert.equal(await rendering(), "pixelated");
-        const near = await frame.boundingBox();
+        await page.sees(async () => assert.equal(await rendering(), "pixelated"));
+        const near = await page.steady(() => frame.boundingBox());
         assert.ok(Math.abs((at.x - near.x) / near.width - 0.25) < 1e-2);
         assert.ok(Math.abs((at.y - near.y) / near.height - 0.3) < 1e-2);
         assert.equal((await page.display()).exposure_stops, exposure);
@@ -56,8 +60,11 @@ describe("stage", { timeout: 240_000 }, () => {
         await page.page.keyboard.down("Space");
         await pan();
         await page.page.keyboard.up("Space");
-        const moved = await frame.boundingBox();
-        assert.ok(Math.abs(moved.x - near.x - 60) < 1 && Math.abs(moved.y - near.y - 40) < 1);
+        await page.sees(async () => {
+            const moved = await frame.boundingBox();
+            assert.ok(Math.abs(moved.x - near.x - 60) < 1, `${moved.x}, was ${near.x}`);
+            assert.ok(Math.abs(moved.y - near.y - 40) < 1, `${moved.y}, was ${near.y}`);
+        });
         assert.equal(await page.revision(), revision, "panning is no edit");
         // Without Space the hand turns the light, zoomed or not.
         await page.page.mouse.move(at.x, at.y);
@@ -67,7 +74,7 @@ describe("stage", { timeout: 240_000 }, () => {
         await page.page.mouse.wheel(0, -100);
         await page.until((relume, e) => relume.display.exposure_stops > e, exposure);
         await page.page.keyboard.press("f");
-        assert.deepEqual(await frame.boundingBox(), fit);
+        await fits();
         assert.ok(["crisp", "smooth"].includes(await pixels()));
     });
 
@@ -99,7 +106,8 @@ describe("stage", { timeout: 240_000 }, () => {
         const image = await page.page.locator("#image-frame").boundingBox();
         assert.equal(overlap(notice, image), 0, "the picture stays free");
         await page.page.clock.fastForward(30_000);
-        assert.equal(await page.page.locator(".notice").count(), 0);
+        const notices = page.page.locator(".notice");
+        await page.sees(async () => assert.equal(await notices.count(), 0));
     });
 
     it("shows mark and figures of one image", async () => {
@@ -132,9 +140,11 @@ describe("stage", { timeout: 240_000 }, () => {
     it("says beside exact what the bake is off by, as the scene list does", async () => {
         const { scenes } = await suite.server.json("/api/scenes");
         const page = await suite.room("bake-error");
-        const note = await page.page.locator("#mark-note").innerText();
         const [{ bake_error: error }] = scenes;
-        assert.match(note, error === undefined ? /^$/ : /^bake ± \d.* %$/);
+        const note = await page.says(
+            page.page.locator("#mark-note"),
+            error === undefined ? /^$/ : /^bake ± \d.* %$/,
+        );
         if (error !== undefined) {
             const percent = Number(/[\d.]+/.exec(note)[0]);
             assert.ok(Math.abs(percent - 100 * error) < 0.06 * percent, `${note}, ${error}`);
@@ -177,20 +187,20 @@ describe("stage", { timeout: 240_000 }, () => {
                 document.getElementById("strategy-controls").getBoundingClientRect().height > h,
             folded + 150,
         );
-        assert.ok(await method.isVisible());
-        for (const note of await advanced.locator(".blade-note").all()) {
-            assert.ok((await note.innerText()).length > 30);
-        }
-        assert.equal(await advanced.locator(".blade-note").count(), 4);
+        await method.waitFor();
+        await page.sees(async () => {
+            const notes = await advanced.locator(".blade-note").allInnerTexts();
+            assert.equal(notes.length, 4);
+            for (const note of notes) assert.ok(note.length > 30, note);
+        });
     });
 
     it("says which scenes there are where one is unknown", async () => {
         const page = await suite.open(`scene=${suite.scene.slice(0, -1)}x&room=nowhere`);
         const veil = page.page.locator("#stage-veil");
         await page.page.locator("#stage-veil a").first().waitFor();
-        const words = await veil.innerText();
-        assert.match(words, new RegExp(`Did you mean ${suite.scene}\\?`));
-        assert.match(words, /There is:/);
+        await page.says(veil, new RegExp(`Did you mean ${suite.scene}\\?`));
+        await page.says(veil, /There is:/);
         await page.page.screenshot({ path: output("unknown-scene.png") });
         await veil.locator("a").first().click();
         await page.untilExact();

@@ -50,7 +50,7 @@ describe("studio page", { timeout: 240_000 }, () => {
         assert.notDeepEqual((await page.state()).rotation.quaternion, before);
         await page.page.screenshot({ path: output("moving.png") });
         await page.untilExact();
-        assert.equal(await page.markWords(), "Exact");
+        await page.saysMark("Exact");
         const second = await page.shown();
         assert.ok(relativeL2(second.rgb, first.rgb) > 1e-3, "the light has moved in the image");
         await page.page.screenshot({ path: output("exact.png") });
@@ -149,7 +149,7 @@ describe("studio page", { timeout: 240_000 }, () => {
         assert.deepEqual(a.rgb, b.rgb);
         assert.deepEqual(a.pixels, b.pixels);
         assert.deepEqual(await one.state(), await two.state());
-        assert.equal(await one.page.locator("#viewers").innerText(), "2");
+        await one.says(one.page.locator("#viewers"), "2");
     });
 
     it("says what is wrong with an upload, and lives on", async () => {
@@ -170,7 +170,7 @@ describe("studio page", { timeout: 240_000 }, () => {
                 buffer,
             });
             await page.notice().filter({ hasText: name }).waitFor();
-            assert.match(await page.notice().innerText(), /not an image.*found.*expected/is);
+            await page.says(page.notice(), /not an image.*found.*expected/is);
         }
         await page.page.screenshot({ path: output("upload-refused.png") });
         assert.equal((await page.state()).environment.name, environment);
@@ -227,7 +227,7 @@ describe("studio page", { timeout: 240_000 }, () => {
         const image = await page.shown();
         await suite.server.stop();
         await page.until((relume) => relume.status === "waiting");
-        assert.equal(await page.markWords(), "Offline");
+        await page.saysMark("Offline");
         await page.page.screenshot({ path: output("offline.png") });
         await suite.server.start();
         await page.until((relume) => relume.status === "open");

@@ -1,4 +1,6 @@
 /** The studio page in a browser: opening it, using it by hand, reading what it shows. */
+import assert from "node:assert/strict";
+import { isDeepStrictEqual } from "node:util";
 import { chromium } from "playwright-core";
 import { setting } from "./programs.mjs";
 import { floatFromHalf } from "./images.mjs";
@@ -54,6 +56,26 @@ export class StudioPage {
                 await this.page.waitForTimeout(50);
             }
         }
+    }
+
+    /** What `read` gives once it gives the same twice, a tenth of a second apart. */
+    async steady(read) {
+        for (let last = await read(); ; ) {
+            await this.page.waitForTimeout(100);
+            const next = await read();
+            if (isDeepStrictEqual(next, last)) return next;
+            last = next;
+        }
+    }
+
+    /** The element's words, once they are like `expected`: a string, or a pattern. */
+    says(locator, expected) {
+        return this.sees(async () => {
+            const words = (await locator.innerText()).trim();
+            if (typeof expected === "string") assert.equal(words, expected);
+            else assert.match(words, expected);
+            return words;
+        });
     }
 
     untilExact() {
@@ -131,8 +153,8 @@ export class StudioPage {
         return this.page.locator(".notice-error").last();
     }
 
-    markWords() {
-        return this.page.locator("#mark-words").innerText();
+    saysMark(words) {
+        return this.says(this.page.locator("#mark-words"), words);
     }
 
     close() {

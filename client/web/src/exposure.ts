@@ -1,7 +1,8 @@
 /**
  * Exposure and tone curve are each viewer's own; the room has a default, which a viewer sees who
  * has chosen none. On a settled image they act here at once, and the server hears of the choice
- * when the hand rests; while JPEGs show, which come developed, it hears at once.
+ * when the hand rests or before an edit leaves; while JPEGs show, which come developed, it hears
+ * at once.
  */
 import { clampExposure, sameDisplay } from "./display";
 import type { ImageView } from "./image_view";
@@ -14,6 +15,7 @@ const kRestMilliseconds = 180;
 export class Exposure {
     readonly changed = new Signal<DisplayState>();
     private mine: DisplayState | null = null;
+    /** Of a choice that the server has not heard of; 0 where there is none. */
     private timer = 0;
 
     constructor(
@@ -23,6 +25,9 @@ export class Exposure {
         session.stateChanged.listen(() => this.publish());
         // A new connection knows of no choice.
         session.opened.listen(() => this.tell());
+        session.editSent.listen(() => {
+            if (this.timer !== 0) this.tell();
+        });
     }
 
     get display(): DisplayState {
@@ -72,6 +77,8 @@ export class Exposure {
     }
 
     private tell(): void {
+        clearTimeout(this.timer);
+        this.timer = 0;
         this.session.chooseDisplay(this.mine);
     }
 
