@@ -7,10 +7,11 @@
 // geometry alone, never on what the paths found: pooling blurs, it does not skew.
 #pragma once
 
-#include "precompute/bake/escape_sum.h"
+#include "precompute/bake/shrinkage.h"
 #include "precompute/bake/tile_window.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace relume::bake {
 
@@ -19,16 +20,19 @@ class PathPool {
     PathPool(const TileWindow& window, std::uint32_t radius)
         : window_(window), radius_(radius) {}
 
-    // Adds the pooled paths of one surface of pixel (x, y), without its reflectance. The pixel
-    // and those within the radius are in the window. Thread-safe for different sums.
+    // Replaces `contributions` by the pooled paths of one surface of pixel (x, y), without its
+    // reflectance. The pixel and those within the radius are in the window. Thread-safe.
     void gather(std::uint32_t x,
                 std::uint32_t y,
                 std::uint32_t surface,
-                EscapeSum& escapes) const;
+                std::vector<Contribution>& contributions) const;
 
   private:
     const TileWindow& window_;
     std::uint32_t radius_;
 };
+
+// Paths of one surface alone.
+void gather_own(const SurfacePaths& paths, std::vector<Contribution>& contributions);
 
 }  // namespace relume::bake

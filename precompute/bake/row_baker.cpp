@@ -72,14 +72,13 @@ void RowBaker::add_indirect(const TracedPixel& pixel,
                             CoefficientRow& row,
                             Scratch& scratch) const {
     for (std::uint32_t i = 0; i < pixel.paths.size(); ++i) {
-        scratch.escapes.reset(projection_->basis().face_resolution());
         if (pool != nullptr) {
-            pool->gather(x, y, i, scratch.escapes);
+            pool->gather(x, y, i, scratch.contributions);
         } else {
-            scratch.escapes.add(pixel.paths[i], 1);
+            gather_own(pixel.paths[i], scratch.contributions);
         }
         scratch.coefficients.clear();
-        escapes_->project(scratch.escapes, scratch.coefficients);
+        escapes_->project(scratch.contributions, scratch.coefficients);
         const PixelSurface& surface = pixel.view.surfaces[i];
         const Imath::V3f factor =
             reflectance(surface.point.bsdf) * surface.tint * surface.share;

@@ -34,7 +34,7 @@ class RowBaker {
         DirectLight::Scratch direct;
         TexelRow texels;
         std::vector<float> grey;  // coefficients of a row without colour
-        EscapeSum escapes;
+        std::vector<Contribution> contributions;
         std::vector<Coefficient> coefficients;
     };
 

@@ -11,6 +11,8 @@ struct AreaLight {
     Imath::V3f direction{0, 1, 0};        // towards the light; any non-zero length
     float angular_radius_radians = 0.1F;  // in (0, π/2]
     Imath::V3f radiance{1, 1, 1};
+
+    friend bool operator==(const AreaLight&, const AreaLight&) = default;
 };
 
 // 2π(1 − cos α).

@@ -25,6 +25,8 @@ struct LightRig {
     Imath::Quatf rotation;                  // unit; turns environment and blend, not the lights
     Imath::V3f environment_scale{1, 1, 1};  // gain · tint
     std::vector<AreaLight> lights;          // radiance with their own gain and tint applied
+
+    friend bool operator==(const LightRig&, const LightRig&) = default;
 };
 
 // The rig as a lighting cubemap of resolution n (out is reset to it).

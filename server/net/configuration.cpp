@@ -162,6 +162,8 @@ void add_limits(OptionSet& options, Configuration& c) {
                       1, kMany);
     options.add_count("max-lights", limits.lights_per_room, "Area lights in a room", 1, 4096);
     options.add_count("max-clients", limits.clients_per_room, "Clients in a room", 1, kMany);
+    options.add_count("max-clients-per-address", c.rooms.room.clients_per_address,
+                      "Clients in a room that come from one address", 1, kMany);
     options.add_count("max-rooms", limits.rooms, "Rooms", 1, kMany);
     options.add_count("max-rooms-per-address", c.rooms.rooms_per_address,
                       "Rooms made by clients of one address", 1, kMany);

@@ -11,7 +11,7 @@ ImagePipeline::ImagePipeline(std::shared_ptr<const engine::Scene> scene)
       drag_(scene_->face_resolution()),
       sky_(scene_->transport()),
       session_(scene_, relighting::Strategy{}),
-      composer_(sky_, scene_->image().width, scene_->image().height),
+      composer_(sky_, scene_->image()),
       display_(wire::Display{}) {}
 
 ImagePipeline::~ImagePipeline() {

@@ -23,6 +23,10 @@ bool equal_in_constant_time(std::string_view guess, std::string_view secret) {
 
 }  // namespace
 
+Role Access::role_of(const HttpRequest& request) const {
+    return has_token(request) ? Role::editor : Role::none;
+}
+
 bool Access::has_token(const HttpRequest& request) const {
     if (token_.empty()) {
         return true;

@@ -1,10 +1,11 @@
-// Who may open sessions and upload: the token, the pages a browser may come from, and the names
-// under which the server may be asked at all.
+// What a request may do: by its token, the page that a browser made it for, and the name
+// under which it asks for the server.
 #pragma once
 
 #include "server/net/http/http_message.h"
 #include "server/net/peers/host_policy.h"
 #include "server/net/peers/origin_policy.h"
+#include "server/net/peers/role.h"
 
 #include <string>
 #include <string_view>
@@ -18,9 +19,10 @@ class Access {
     Access(std::string token, OriginPolicy origins, HostPolicy hosts)
         : token_(std::move(token)), origins_(std::move(origins)), hosts_(std::move(hosts)) {}
 
-    // As `Authorization: Bearer`, among the subprotocols, or as `token=` in the query; the
-    // first of these that is there counts.
-    [[nodiscard]] bool has_token(const HttpRequest& request) const;
+    // Of who brings the server's token, or whoever comes where it asks for none: an editor's.
+    // The token comes as `Authorization: Bearer`, among the subprotocols, or as `token=` in the
+    // query; the first of these that is there counts.
+    [[nodiscard]] Role role_of(const HttpRequest& request) const;
     // Whatever is asked for.
     [[nodiscard]] bool allows_host(std::string_view host) const { return hosts_.allows(host); }
     [[nodiscard]] bool allows_origin(const HttpRequest& request) const {
@@ -32,6 +34,8 @@ class Access {
     }
 
   private:
+    [[nodiscard]] bool has_token(const HttpRequest& request) const;
+
     std::string token_;
     OriginPolicy origins_;
     HostPolicy hosts_;

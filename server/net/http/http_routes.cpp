@@ -1,6 +1,5 @@
 #include "server/net/http/http_routes.h"
 
-#include "protocol/base/text/near_names.h"
 #include "server/net/base/log_sink.h"
 #include "server/net/http/query_rules.h"
 
@@ -190,18 +189,10 @@ HttpReply HttpRoutes::environments() const {
     return json_reply(200, nlohmann::json{{"environments", std::move(all)}}.dump());
 }
 
-std::string HttpRoutes::expected_scene(std::string_view name) const {
-    std::vector<std::string> known;
-    for (const auto& scene : scenes_.list()) {
-        known.push_back(scene->name);
-    }
-    return text::expected_name(name, known, "scenes");
-}
-
 HttpReply HttpRoutes::thumbnail(std::string_view name) const {
     const std::shared_ptr<const ServedScene> scene = scenes_.find(name);
     if (!scene) {
-        return not_found(name, expected_scene(name));
+        return not_found(name, scenes_.expected_in_place_of(name));
     }
     std::optional<std::string> image = read_thumbnail(*scene);
     if (!image) {

@@ -29,8 +29,6 @@ class HttpRoutes {
     [[nodiscard]] static bool takes_long(const HttpRequest& request);
     // Everything but uploads and upgrades.
     [[nodiscard]] HttpReply answer(const HttpRequest& request) const;
-    // What is expected in the place of a scene's name that there is not: those that are near.
-    [[nodiscard]] std::string expected_scene(std::string_view name) const;
     // The name in /session/NAME, or nothing.
     [[nodiscard]] static std::optional<std::string> room_of(const HttpRequest& request);
     [[nodiscard]] static bool is_upload(const HttpRequest& request);

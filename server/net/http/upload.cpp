@@ -41,7 +41,7 @@ std::variant<HttpReply, Upload> Uploads::admit(const HttpRequest& request) {
         return error_reply(403, WireError(ErrorCode::unsupported, "Origin", *request.origin,
                                           "the server's own origin or an allowed one"));
     }
-    if (!access_.has_token(request)) {
+    if (access_.role_of(request) == Role::none) {
         return error_reply(401, WireError(ErrorCode::unsupported, "token",
                                           "no or another token", "the server's token"));
     }

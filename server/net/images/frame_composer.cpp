@@ -31,8 +31,8 @@ void look(const light::Background& background,
 
 }  // namespace
 
-FrameComposer::FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height)
-    : sky_(sky), width_(width), height_(height), background_(sky.size(), Imath::V3f(0)) {}
+FrameComposer::FrameComposer(const SkyPixels& sky, const transport::TileGrid& image)
+    : sky_(sky), image_(image), background_(sky.size(), Imath::V3f(0)) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
@@ -62,14 +62,13 @@ void FrameComposer::set_background(const wire::Background& background,
 // image, in no order and at the same time.
 template <typename Take>
 void FrameComposer::for_each_row(const engine::Session& session, const Take& take) const {
-    const transport::TileGrid& image = session.scene().image();
-    const std::uint32_t runs_x = (image.tiles_x() + kTilesPerRun - 1) / kTilesPerRun;
-    tbb::parallel_for(std::uint32_t{0}, runs_x * image.tiles_y(), [&](std::uint32_t run) {
+    const std::uint32_t runs_x = (image_.tiles_x() + kTilesPerRun - 1) / kTilesPerRun;
+    tbb::parallel_for(std::uint32_t{0}, runs_x * image_.tiles_y(), [&](std::uint32_t run) {
         const std::uint32_t first = run % runs_x * kTilesPerRun;
         const engine::TileRun tiles{.row = run / runs_x,
                                     .first = first,
-                                    .last = std::min(first + kTilesPerRun, image.tiles_x())};
-        const engine::PixelRect pixels = engine::pixels_of(image, tiles);
+                                    .last = std::min(first + kTilesPerRun, image_.tiles_x())};
+        const engine::PixelRect pixels = engine::pixels_of(image_, tiles);
         const std::size_t row_floats = std::size_t{3} * pixels.width;
         thread_local std::vector<float> rgb;
         rgb.resize(row_floats * pixels.height);
@@ -77,7 +76,7 @@ void FrameComposer::for_each_row(const engine::Session& session, const Take& tak
         for (std::uint32_t y = 0; y < pixels.height; ++y) {
             const std::span<float> row = std::span(rgb).subspan(y * row_floats, row_floats);
             add_background(pixels.left, pixels.top + y, row);
-            take(std::size_t{pixels.top + y} * width_ + pixels.left, row);
+            take(std::size_t{pixels.top + y} * image_.width + pixels.left, row);
         }
     });
 }
@@ -103,14 +102,14 @@ void FrameComposer::add_background(std::uint32_t x,
 void FrameComposer::compose(const engine::Session& session,
                             std::span<const DisplayTable* const> displays,
                             bool half_planes) {
-    const std::size_t pixel_count = std::size_t{width_} * height_;
+    const std::size_t pixel_count = std::size_t{image_.width} * image_.height;
     codes_.resize(displays.size());
     for (std::vector<std::uint8_t>& codes : codes_) {
         codes.resize(3 * pixel_count);
     }
     if (half_planes) {
-        half_.width = width_;
-        half_.height = height_;
+        half_.width = image_.width;
+        half_.height = image_.height;
         half_.has_alpha = has_alpha_;
         half_.values.resize(pixel_count * half_.plane_count());
     }
@@ -125,7 +124,7 @@ void FrameComposer::compose(const engine::Session& session,
 }
 
 void FrameComposer::put_half(std::size_t index, std::span<const float> rgb) {
-    const std::size_t pixel_count = std::size_t{width_} * height_;
+    const std::size_t pixel_count = std::size_t{image_.width} * image_.height;
     for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             half_.values[c * pixel_count + index + i] = wire::half_from_linear(rgb[3 * i + c]);

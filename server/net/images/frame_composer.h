@@ -18,7 +18,11 @@ namespace relume::net {
 // between stay in the cache. Not thread-safe; spreads its work over oneTBB.
 class FrameComposer {
   public:
-    FrameComposer(const SkyPixels& sky, std::uint32_t width, std::uint32_t height);
+    FrameComposer(const SkyPixels& sky, const transport::TileGrid& image);
+
+    // Of every picture: nobody else is asked for it.
+    [[nodiscard]] std::uint32_t width() const { return image_.width; }
+    [[nodiscard]] std::uint32_t height() const { return image_.height; }
 
     // What is behind the scene from now on. The rig is looked up only in mode `environment`, at
     // its full resolution, once per pixel that sees it.
@@ -47,8 +51,7 @@ class FrameComposer {
     void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
 
     const SkyPixels& sky_;
-    std::uint32_t width_;
-    std::uint32_t height_;
+    const transport::TileGrid image_;
     bool has_alpha_ = false;
     std::vector<Imath::V3f> background_;  // of every sky pixel, times its visible part
     std::vector<std::vector<std::uint8_t>> codes_;

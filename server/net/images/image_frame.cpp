@@ -4,6 +4,22 @@
 
 namespace relume::net {
 
+SharedImageFrame restamped(const ImageFrame& frame, const ImageStamp& stamp) {
+    auto again = std::make_shared<ImageFrame>(frame);
+    wire::ImageHeader& header = again->header;
+    header.revision = stamp.revision;
+    header.sequence = stamp.sequence;
+    header.edit_to_image_ms =
+        static_cast<float>(milliseconds(Clock::now() - stamp.edit_read_at));
+    header.relight_ms = 0;
+    header.encode_ms = 0;
+    header.coefficients_applied = 0;
+    const auto bytes = wire::encode_image_header(header);
+    std::copy(bytes.begin(), bytes.end(), again->bytes.begin());
+    again->settled = stamp.settled;
+    return again;
+}
+
 SharedImageFrame ImageFrames::for_viewer(ImageInterest interest,
                                          const wire::DisplayChoice& display) const {
     if (settled || interest == ImageInterest::moving_float) {

@@ -3,13 +3,23 @@
 
 #include "protocol/wire/image_header.h"
 #include "protocol/wire/messages.h"
+#include "server/net/base/clock.h"
 #include "server/net/images/image_interest.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace relume::net {
+
+// Which edit an image answers, and how long that took.
+struct ImageStamp {
+    std::uint64_t revision = 0;
+    std::uint64_t sequence = 0;
+    Clock::time_point edit_read_at;
+    bool settled = false;  // the state rests
+};
 
 struct ImageFrame {
     wire::ImageHeader header;
@@ -17,6 +27,9 @@ struct ImageFrame {
     bool settled = false;          // of a state that rests
 };
 using SharedImageFrame = std::shared_ptr<const ImageFrame>;
+
+// The same picture, made for another revision that it shows as well: it has cost nothing.
+[[nodiscard]] SharedImageFrame restamped(const ImageFrame& frame, const ImageStamp& stamp);
 
 // One image of a room in every form that its viewers asked for. All of them have one sequence
 // number.

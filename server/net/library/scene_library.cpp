@@ -3,6 +3,7 @@
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/text/names.h"
+#include "protocol/base/text/near_names.h"
 #include "protocol/transport/transport.h"
 #include "server/net/library/folder_stamp.h"
 
@@ -145,6 +146,14 @@ std::vector<std::shared_ptr<const ServedScene>> SceneLibrary::list() const {
         all.push_back(scene);
     }
     return all;
+}
+
+std::string SceneLibrary::expected_in_place_of(std::string_view name) const {
+    std::vector<std::string> known;
+    for (const auto& scene : list()) {
+        known.push_back(scene->name);
+    }
+    return text::expected_name(name, known, "scenes");
 }
 
 std::uint64_t SceneLibrary::total_bytes() const {

@@ -50,6 +50,8 @@ class SceneLibrary {
     [[nodiscard]] std::shared_ptr<const ServedScene> find(std::string_view name) const;
     // In the order of their names.
     [[nodiscard]] std::vector<std::shared_ptr<const ServedScene>> list() const;
+    // What is expected in the place of a name that there is not: those that are near.
+    [[nodiscard]] std::string expected_in_place_of(std::string_view name) const;
     [[nodiscard]] std::uint64_t total_bytes() const;
 
   private:

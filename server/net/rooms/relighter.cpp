@@ -1,7 +1,6 @@
 #include "server/net/rooms/relighter.h"
 
 #include <Imath/ImathMath.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,20 +18,6 @@ light::AreaLight area_light_from(const wire::AreaLight& light) {
             .angular_radius_radians =
                 static_cast<float>(light.angular_radius_degrees * kRadiansPerDegree),
             .radiance = Imath::V3f(light.radiance * light.tint * light.gain)};
-}
-
-// So much of an image's time goes to relighting, however slow the rest is: in less, hardly more
-// than choosing gets done, and pictures come sooner but far off.
-constexpr double kLeastShare = 0.2;
-
-void blend(double& mean, double newest) {
-    constexpr double kNewest = 0.2;
-    mean += kNewest * (newest - mean);
-}
-
-bool same_rig(const wire::RoomState& a, const wire::RoomState& b) {
-    return a.environment == b.environment && a.blend == b.blend && a.rotation == b.rotation &&
-           a.lights == b.lights;
 }
 
 // Black, and a problem to report, if it cannot be decoded.
@@ -59,6 +44,30 @@ std::shared_ptr<const light::PrefilteredEnvironment> prefiltered(
     }
 }
 
+light::LightRig rig_from_state(const wire::RoomState& state,
+                               const NamedEnvironments& environments,
+                               std::uint32_t face_resolution,
+                               std::vector<wire::ErrorMessage>& problems) {
+    light::LightRig rig;
+    rig.environment =
+        prefiltered(environments.environment, face_resolution, "/environment/name", problems);
+    rig.blend = prefiltered(environments.blend, face_resolution, "/blend/name", problems);
+    rig.blend_amount = environments.blend ? static_cast<float>(state.blend.amount) : 0.0F;
+    rig.rotation = Imath::Quatf(state.rotation);
+    rig.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
+    const bool solo = wire::any_solo(state);
+    if (solo) {
+        rig.environment = nullptr;
+        rig.blend = nullptr;
+    }
+    for (const auto& [id, light] : state.lights) {
+        if (wire::lights_now(light, solo)) {
+            rig.lights.push_back(area_light_from(light));
+        }
+    }
+    return rig;
+}
+
 }  // namespace
 
 Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
@@ -66,133 +75,92 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
                      Clock::duration ceiling)
     : scene_(std::move(scene)),
       metrics_(metrics),
-      ceiling_ms_(milliseconds(ceiling)),
       session_(scene_->engine, relighting::Strategy{}),
-      composer_(std::make_shared<FrameComposer>(
-          scene_->sky, scene_->engine->image().width, scene_->engine->image().height)) {}
+      composer_(std::make_shared<FrameComposer>(scene_->sky, scene_->engine->image())),
+      budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
-                                                     const NamedEnvironments& environments) {
+                                                     const NamedEnvironments& environments,
+                                                     wire::Stages stages) {
     const Clock::time_point begin = Clock::now();
     std::vector<wire::ErrorMessage> problems;
-    const bool rig_changed =
-        !state_ || environments_ != environments || !same_rig(*state_, state);
-    if (rig_changed) {
-        set_rig(state, environments, problems);
+    if (!state_) {
+        stages = kAllStages;
     }
+    const bool light_is_new =
+        stages.has(wire::Stage::signal) && set_light(state, environments, problems);
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
-    if (!state_ || state_->background != state.background ||
-        (rig_changed && sees_environment)) {
+    if (stages.has(wire::Stage::view) || (light_is_new && sees_environment)) {
         composer_->set_background(state.background, rig_);
+        pixels_changed();
     }
-    session_.set_strategy(state.strategy);
+    if (stages.has(wire::Stage::policy)) {
+        session_.set_strategy(state.strategy);
+    }
+    if (stages.has(wire::Stage::display)) {
+        image_changed_ = true;
+    }
     state_ = state;
-    environments_ = environments;
-    image_changed_ = true;
-    const Clock::duration spent = Clock::now() - begin;
-    metrics_.observe_lighting(seconds(spent));
-    blend(lighting_ms_, milliseconds(spent));
-    lighting_is_new_ = true;
-    spent_ms_ = 0;
-    spent_columns_ = 0;
-    relight_time_ += spent;
+    if (light_is_new) {
+        const Clock::duration spent = Clock::now() - begin;
+        metrics_.observe_lighting(seconds(spent));
+        budget_.begin_step(milliseconds(spent));
+        relight_time_ += spent;
+    }
     return problems;
 }
 
-void Relighter::set_rig(const wire::RoomState& state,
-                        const NamedEnvironments& environments,
-                        std::vector<wire::ErrorMessage>& problems) {
+bool Relighter::set_light(const wire::RoomState& state,
+                          const NamedEnvironments& environments,
+                          std::vector<wire::ErrorMessage>& problems) {
     const std::uint32_t n = scene_->engine->face_resolution();
-    rig_.environment = prefiltered(environments.environment, n, "/environment/name", problems);
-    rig_.blend = prefiltered(environments.blend, n, "/blend/name", problems);
-    rig_.blend_amount = environments.blend ? static_cast<float>(state.blend.amount) : 0.0F;
-    rig_.rotation = Imath::Quatf(state.rotation);
-    rig_.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
-    rig_.lights.clear();
-    const bool solo = wire::any_solo(state);
-    if (solo) {
-        rig_.environment = nullptr;
-        rig_.blend = nullptr;
+    light::LightRig rig = rig_from_state(state, environments, n, problems);
+    if (state_ && rig == rig_) {
+        return false;
     }
-    for (const auto& [id, light] : state.lights) {
-        if (wire::lights_now(light, solo)) {
-            rig_.lights.push_back(area_light_from(light));
-        }
-    }
+    rig_ = std::move(rig);
     light::evaluate(rig_, n, cubemap_);
     light::lighting_coefficients(cubemap_, scene_->engine->projection(), coefficients_);
     session_.set_lighting(coefficients_);
+    pixels_changed();
+    return true;
+}
+
+void Relighter::pixels_changed() {
+    ++pixels_;
+    image_changed_ = true;
 }
 
 void Relighter::advance_together(std::span<Relighter* const> relighters) {
     const Clock::time_point begin = Clock::now();
-    std::vector<engine::SessionTurn> turns;
+    std::vector<engine::SessionTurn> slices;
     for (Relighter* relighter : relighters) {
-        turns.push_back({.session = &relighter->session_,
-                         .budget = relighter->budget_for_slice(relighters.size()),
-                         .ceiling_milliseconds = relighter->ceiling_ms_,
-                         .report = {}});
+        slices.push_back({.session = &relighter->session_,
+                          .budget = relighter->budget_.for_slice(relighter->state_->budget,
+                                                                 relighters.size()),
+                          .ceiling_milliseconds = relighter->budget_.ceiling_ms(),
+                          .report = {}});
     }
-    engine::Session::advance_together(turns);
+    engine::Session::advance_together(slices);
     const Clock::duration spent = Clock::now() - begin;
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        relighters[i]->stepped(turns[i].report, spent);
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        relighters[i]->relit(slices[i].report, spent);
     }
 }
 
-void Relighter::stepped(const engine::StepReport& step, Clock::duration spent) {
-    lighting_is_new_ = false;
-    metrics_.count_step(step, seconds(spent));
+void Relighter::relit(const engine::StepReport& report, Clock::duration spent) {
+    metrics_.count_step(report, seconds(spent));
+    budget_.slice_took(milliseconds(spent), report.applied);
     relight_time_ += spent;
-    spent_ms_ += milliseconds(spent);
-    spent_columns_ += step.applied;
-    applied_ += step.applied;
-    remaining_ = step.remaining;
-    image_changed_ = image_changed_ || step.image_changed;
+    applied_ += report.applied;
+    remaining_ = report.remaining;
+    if (report.image_changed) {
+        pixels_changed();
+    }
 }
 
-relighting::Budget Relighter::budget_for_relighting(std::size_t sessions) const {
-    relighting::Budget budget = state_->budget;
-    if (budget.milliseconds) {
-        // All of them are lit, composed and encoded on the same threads.
-        const double rounds = std::max(
-            1.0, static_cast<double>(sessions) / tbb::this_task_arena::max_concurrency());
-        const double taken =
-            rounds * (compose_ms_ + beside_ms_ + (lighting_is_new_ ? lighting_ms_ : 0));
-        budget.milliseconds =
-            std::max(kLeastShare * *budget.milliseconds, *budget.milliseconds - taken);
-    }
-    return budget;
-}
-
-bool Relighter::budget_is_spent() const {
-    // So much of a slice.
-    constexpr double kNotWorthASlice = 0.25;
-    // The largest budget in milliseconds that a state can have.
-    constexpr double kLongestImageMs = 1000;
-    if (at_rest()) {
-        return true;
-    }
-    if (shows_state_before()) {
-        return false;
-    }
-    if (state_->budget.coefficients) {
-        return spent_columns_ >= *state_->budget.coefficients || spent_ms_ >= kLongestImageMs;
-    }
-    const double whole = budget_for_relighting(1).milliseconds.value_or(0);
-    return spent_ms_ > 0 &&
-           (whole <= ceiling_ms_ || whole - spent_ms_ < kNotWorthASlice * ceiling_ms_);
-}
-
-relighting::Budget Relighter::budget_for_slice(std::size_t sessions) const {
-    relighting::Budget budget = budget_for_relighting(sessions);
-    if (budget.coefficients && spent_columns_ < *budget.coefficients) {
-        *budget.coefficients -= spent_columns_;
-    }
-    if (budget.milliseconds && spent_ms_ < *budget.milliseconds) {
-        *budget.milliseconds -= spent_ms_;
-    }
-    return budget;
+bool Relighter::step_is_complete() const {
+    return at_rest() || (!shows_state_before() && budget_.is_spent(state_->budget));
 }
 
 void Relighter::compose(const ImageForms& forms, bool settled) {
@@ -202,18 +170,17 @@ void Relighter::compose(const ImageForms& forms, bool settled) {
     const Clock::duration spent = Clock::now() - begin;
     metrics_.observe_compose(seconds(spent));
     if (!settled) {
-        blend(compose_ms_, milliseconds(spent));
+        budget_.composing_took(milliseconds(spent));
     }
 }
 
 Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
     compose(forms, stamp.settled);
-    const transport::TileGrid& image = scene_->engine->image();
     const bool exact = session_.exact();
     Picture picture{
         .header = {.encoding = {},
-                   .width = image.width,
-                   .height = image.height,
+                   .width = composer_->width(),
+                   .height = composer_->height(),
                    .revision = stamp.revision,
                    .sequence = stamp.sequence,
                    .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),

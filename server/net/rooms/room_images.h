@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace relume::net {
@@ -22,8 +23,8 @@ struct ImageOptions {
     int converging_jpeg_quality = 95;
 };
 
-// Not thread-safe: the room's slice has it to itself. A slice is `begin`, one step of the
-// relighter unless it is at rest, and `end`.
+// Not thread-safe: the room's slice has it to itself. A slice is `begin`, then relighting
+// unless there is nothing to relight, then `end`.
 class RoomImages {
   public:
     RoomImages(std::shared_ptr<const ServedScene> scene,
@@ -32,22 +33,24 @@ class RoomImages {
 
     // Takes the slice's state over; what of it cannot be shown is told.
     [[nodiscard]] std::vector<wire::ErrorMessage> begin(const RoomSlice& slice);
-    // Null when nothing is left to do.
-    [[nodiscard]] Relighter* next_to_relight();
+    // Null when nothing is left to do, or an edit's image can be composed as it stands.
+    [[nodiscard]] Relighter* next_to_relight(const RoomSlice& slice);
     // The picture that is due now, if one is and the encoder is free.
     [[nodiscard]] SliceResult end(const RoomSlice& slice);
 
     // Forgets the image after a failure; the next state begins afresh.
-    void forget() { relighter_.reset(); }
+    void forget();
 
   private:
     [[nodiscard]] bool moving_image_is_due(const RoomSlice& slice, Clock::time_point now) const;
+    void settle(const RoomSlice& slice, ImageStamp stamp, SliceResult& result);
 
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
     const ImageOptions options_;
     std::unique_ptr<Relighter> relighter_;
     std::uint64_t sequence_ = 0;
+    std::optional<std::uint64_t> settled_pixels_;  // Relighter::pixels of the settled image
     Clock::time_point last_image_at_;
     double last_image_error_ = 0;
 };

@@ -36,15 +36,41 @@ Rooms::Rooms(const SceneLibrary& scenes,
       first_environment_(require_environment(environments, options_.environment)),
       by_address_(options_.rooms_per_address) {}
 
-std::variant<std::shared_ptr<Room>, wire::CloseCode> Rooms::enter(
-    const std::string& name,
-    const std::optional<std::string>& scene,
-    const Room::SharedOutbox& viewer,
-    const std::string& client) {
+std::variant<Rooms::Entered, Rooms::Refusal> Rooms::enter(
+    const std::string& name, const std::optional<std::string>& scene, const Visitor& visitor) {
+    if (visitor.role == Role::none) {
+        return Refusal{.code = wire::CloseCode::bad_token, .expected = {}};
+    }
     const std::lock_guard lock(mutex_);
     if (stopped_) {
-        return wire::CloseCode::shutting_down;
+        return Refusal{.code = wire::CloseCode::shutting_down, .expected = {}};
     }
+    auto room = room_locked(name, scene, visitor.address);
+    if (const Refusal* const refusal = std::get_if<Refusal>(&room)) {
+        return *refusal;
+    }
+    Entered entered{.room = std::get<std::shared_ptr<Room>>(std::move(room)),
+                    .viewer = ViewerId{++last_viewer_}};
+    const auto full = entered.room->join({.id = entered.viewer, .role = visitor.role},
+                                         visitor.outbox, visitor.address);
+    if (full) {
+        const RoomOptions& bounds = options_.room;
+        return Refusal{
+            .code = wire::CloseCode::room_full,
+            .expected =
+                full == Audience::Refusal::full
+                    ? fmt::format("at most {}", bounds.limits.clients_per_room)
+                    : fmt::format("at most {} from one address", bounds.clients_per_address)};
+    }
+    return entered;
+}
+
+std::variant<std::shared_ptr<Room>, Rooms::Refusal> Rooms::room_locked(
+    const std::string& name,
+    const std::optional<std::string>& scene,
+    const std::string& address) {
+    const Refusal unknown_scene{.code = wire::CloseCode::unknown_scene,
+                                .expected = scenes_.expected_in_place_of(scene.value_or(""))};
     auto known = rooms_.find(name);
     if (known != rooms_.end() && known->second.room->empty_since() &&
         is_outdated(*known->second.room)) {
@@ -54,38 +80,27 @@ std::variant<std::shared_ptr<Room>, wire::CloseCode> Rooms::enter(
     if (known != rooms_.end()) {
         const std::shared_ptr<Room>& room = known->second.room;
         if (scene && *scene != room->scene().name) {
-            return wire::CloseCode::unknown_scene;
-        }
-        if (!room->join(viewer)) {
-            return wire::CloseCode::room_full;
+            return unknown_scene;
         }
         return room;
     }
     std::shared_ptr<const ServedScene> served = scene ? scenes_.find(*scene) : nullptr;
     if (!served) {
-        return wire::CloseCode::unknown_scene;
+        return unknown_scene;
     }
-    AddressQuota::Place place = place_for_room_locked(client);
+    AddressQuota::Place place = place_for_room_locked(address);
     if (!place) {
-        return wire::CloseCode::too_many_rooms;
+        return Refusal{.code = wire::CloseCode::too_many_rooms, .expected = {}};
     }
-    std::shared_ptr<Room> room = make_room(name, std::move(served));
-    if (!room->join(viewer)) {
-        return wire::CloseCode::room_full;
-    }
-    rooms_.emplace(name, Entry{.room = room, .creator = client, .place = std::move(place)});
+    spdlog::info("room_opened room={} scene={}", name, served->name);
+    auto room = std::make_shared<Room>(name, std::move(served), first_environment_,
+                                       environments_, threads_, metrics_, options_.room);
+    rooms_.emplace(name, Entry{.room = room, .creator = address, .place = std::move(place)});
     metrics_.set_rooms(rooms_.size());
     return room;
 }
 
-std::shared_ptr<Room> Rooms::make_room(const std::string& name,
-                                       std::shared_ptr<const ServedScene> scene) {
-    spdlog::info("room_opened room={} scene={}", name, scene->name);
-    return std::make_shared<Room>(name, std::move(scene), first_environment_, environments_,
-                                  threads_, metrics_, options_.room);
-}
-
-void Rooms::leave(Room& room, const Room::SharedOutbox& viewer) {
+void Rooms::leave(Room& room, ViewerId viewer) {
     room.leave(viewer);
     if (room.empty_since() && is_outdated(room)) {
         drop_outdated();

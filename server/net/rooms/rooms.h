@@ -3,9 +3,12 @@
 
 #include "protocol/wire/errors.h"
 #include "server/net/peers/address_quota.h"
+#include "server/net/peers/role.h"
 #include "server/net/rooms/room.h"
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -37,16 +40,29 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
           Metrics& metrics,
           RoomsOptions options);
 
+    // Who asks to come in.
+    struct Visitor {
+        Role role = Role::none;
+        Audience::SharedOutbox outbox;
+        // The quota_key: a room that is made for him counts as this address's until it is
+        // dropped.
+        std::string address;
+    };
+    struct Entered {
+        std::shared_ptr<Room> room;
+        ViewerId viewer;
+    };
+    struct Refusal {
+        wire::CloseCode code;
+        std::string expected;  // more than the code says; may be empty
+    };
     // Joins the room, making it if there is none, or if it is empty and its scene has been
-    // replaced. Otherwise the reason to close with:
-    // unknown_scene, room_full, too_many_rooms, shutting_down. `client` is the quota_key of who
-    // asks; a room that it makes counts as its own until the room is dropped.
-    [[nodiscard]] std::variant<std::shared_ptr<Room>, wire::CloseCode> enter(
-        const std::string& name,
-        const std::optional<std::string>& scene,
-        const Room::SharedOutbox& viewer,
-        const std::string& client);
-    void leave(Room& room, const Room::SharedOutbox& viewer);
+    // replaced. Refuses with bad_token, unknown_scene, room_full, too_many_rooms or
+    // shutting_down.
+    [[nodiscard]] std::variant<Entered, Refusal> enter(const std::string& name,
+                                                       const std::optional<std::string>& scene,
+                                                       const Visitor& visitor);
+    void leave(Room& room, ViewerId viewer);
 
     // Scenes have been added, replaced or removed. A room keeps the scene it began with as long
     // as anybody is in it; one that is empty gives way.
@@ -63,8 +79,11 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
 
   private:
-    [[nodiscard]] std::shared_ptr<Room> make_room(const std::string& name,
-                                                  std::shared_ptr<const ServedScene> scene);
+    // The room of that name, made if need be.
+    [[nodiscard]] std::variant<std::shared_ptr<Room>, Refusal> room_locked(
+        const std::string& name,
+        const std::optional<std::string>& scene,
+        const std::string& address);
     struct Entry {
         std::shared_ptr<Room> room;
         std::string creator;
@@ -87,6 +106,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     mutable std::mutex mutex_;
     std::map<std::string, Entry, std::less<>> rooms_;
     AddressQuota by_address_;
+    std::uint64_t last_viewer_ = 0;
     bool stopped_ = false;
 };
 

@@ -88,7 +88,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
         asio::co_spawn(socket_.get_executor(), writer, asio::detached);
         if (room_) {
             co_await read_all();
-            services_.rooms.leave(*room_, outbox_);
+            services_.rooms.leave(*room_, viewer_);
         }
         reading_ = false;
         wake_timer_.cancel();
@@ -133,21 +133,17 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
 
     // Sets the room, or fills the outbox with the reason why not.
     void enter(const std::string& name) {
-        if (!services_.access.has_token(request_)) {
-            close(CloseCode::bad_token);
+        auto entered = services_.rooms.enter(name, request_.target.parameter("scene"),
+                                             {.role = services_.access.role_of(request_),
+                                              .outbox = outbox_,
+                                              .address = request_.client});
+        if (const auto* const refusal = std::get_if<Rooms::Refusal>(&entered)) {
+            expected_ = refusal->expected;
+            close(refusal->code);
             return;
         }
-        auto entered = services_.rooms.enter(name, request_.target.parameter("scene"), outbox_,
-                                             request_.client);
-        if (const CloseCode* const refusal = std::get_if<CloseCode>(&entered)) {
-            if (*refusal == CloseCode::unknown_scene) {
-                hint_ = services_.routes.expected_scene(
-                    request_.target.parameter("scene").value_or(""));
-            }
-            close(*refusal);
-            return;
-        }
-        room_ = std::get<std::shared_ptr<Room>>(std::move(entered));
+        room_ = std::get<Rooms::Entered>(entered).room;
+        viewer_ = std::get<Rooms::Entered>(entered).viewer;
     }
 
     // Beast 1.81 would send back what no peer may send. The answer that is begun here goes
@@ -189,7 +185,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
         try {
             wire::ClientMessage message = wire::parse_client_message(text, services_.limits);
             if (const wire::Ack* const ack = std::get_if<wire::Ack>(&message)) {
-                room_->acknowledge(*outbox_, ack->sequence);
+                room_->acknowledge(viewer_, ack->sequence);
                 return;
             }
             if (const auto* const display = std::get_if<wire::DisplayChoice>(&message)) {
@@ -198,7 +194,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             }
             const wire::Edit& edit = std::get<wire::Edit>(message);
             edit_id = edit.id;
-            room_->edit(*outbox_, edit, read_at);
+            room_->edit(viewer_, edit, read_at);
         } catch (const wire::WireError& refusal) {
             refuse(edit_id ? refusal.with_edit_id(*edit_id) : refusal);
         }
@@ -216,7 +212,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
         try {
             co_await write_until_done();
         } catch (const std::exception& failure) {
-            spdlog::error("session_failed reason={:?}", failure.what());
+            spdlog::error("connection_failed reason={:?}", failure.what());
         }
         // Ends a read that still waits.
         beast::get_lowest_layer(socket_).close();
@@ -266,19 +262,19 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             co_return;
         }
         services_.metrics.count_close(code);
-        spdlog::info("session_closed room={} code={} reason={:?}", room_ ? room_->name() : "-",
+        spdlog::info("viewer_closed room={} code={} reason={:?}", room_ ? room_->name() : "-",
                      static_cast<unsigned>(code), wire::reason_from_close_code(code));
         std::string text(wire::reason_from_close_code(code));
-        if (!hint_.empty() && text.size() + 2 + hint_.size() <= kMaxCloseReasonBytes) {
-            text += "; " + hint_;
+        if (!expected_.empty() && text.size() + 2 + expected_.size() <= kMaxCloseReasonBytes) {
+            text += "; " + expected_;
         }
         const websocket::close_reason reason(static_cast<websocket::close_code>(code), text);
         auto [error] = co_await socket_.async_close(reason, kNoThrow);
         static_cast<void>(error);
     }
 
-    // A peer that does not read first loses its session (4006, sent if it reads again in time),
-    // then its connection.
+    // A peer that does not read is first told so (4006, sent if it reads again in time); then
+    // its connection is cut.
     void watch_write() {
         write_timer_.expires_after(services_.options.write_timeout);
         write_timer_.async_wait([self = shared_from_this()](const beast::error_code& error) {
@@ -290,7 +286,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
             self->write_timer_.async_wait([self](const beast::error_code& late) {
                 if (!late) {
                     self->services_.metrics.count_close(CloseCode::does_not_read);
-                    spdlog::info("session_cut room={} reason=\"does not read\"",
+                    spdlog::info("viewer_cut room={} reason=\"does not read\"",
                                  self->room_ ? self->room_->name() : "-");
                     beast::get_lowest_layer(self->socket_).close();
                 }
@@ -303,6 +299,7 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
     const HttpRequest request_;
     const std::shared_ptr<Outbox> outbox_;
     std::shared_ptr<Room> room_;
+    ViewerId viewer_{};  // in the room
     asio::steady_timer wake_timer_;
     asio::steady_timer write_timer_;
     asio::steady_timer done_waiting_{socket_.get_executor()};
@@ -311,8 +308,8 @@ class WebSocketConnection : public std::enable_shared_from_this<WebSocketConnect
     bool reading_ = true;
     bool writing_ = true;
     bool closing_ = false;
-    std::string hint_;    // more than the close code says
-    bool fails_ = false;  // a close frame of our own is on its way, see fail_for_close_code
+    std::string expected_;  // more than the close code says
+    bool fails_ = false;    // a close frame of our own is on its way, see fail_for_close_code
 };
 
 }  // namespace

@@ -19,25 +19,25 @@ HostPolicy local() {
 
 TEST(Access, WithoutATokenAsksForNone) {
     const Access access("", OriginPolicy({}), local());
-    EXPECT_TRUE(access.has_token(request("/")));
-    EXPECT_TRUE(access.has_token(request("/?token=x")));
+    EXPECT_EQ(access.role_of(request("/")), Role::editor);
+    EXPECT_EQ(access.role_of(request("/?token=x")), Role::editor);
 }
 
 TEST(Access, TakesTheTokenFromQueryOrHeader) {
     const Access access("secret", OriginPolicy({}), local());
-    EXPECT_FALSE(access.has_token(request("/")));
-    EXPECT_FALSE(access.has_token(request("/?token=")));
-    EXPECT_FALSE(access.has_token(request("/?token=secre")));
-    EXPECT_FALSE(access.has_token(request("/?token=secretsecret")));
-    EXPECT_FALSE(access.has_token(request("/?token=secreT")));
-    EXPECT_TRUE(access.has_token(request("/?token=secret")));
+    EXPECT_EQ(access.role_of(request("/")), Role::none);
+    EXPECT_EQ(access.role_of(request("/?token=")), Role::none);
+    EXPECT_EQ(access.role_of(request("/?token=secre")), Role::none);
+    EXPECT_EQ(access.role_of(request("/?token=secretsecret")), Role::none);
+    EXPECT_EQ(access.role_of(request("/?token=secreT")), Role::none);
+    EXPECT_EQ(access.role_of(request("/?token=secret")), Role::editor);
     HttpRequest with_header = request("/");
     with_header.authorization = "Bearer secret";
-    EXPECT_TRUE(access.has_token(with_header));
+    EXPECT_EQ(access.role_of(with_header), Role::editor);
     with_header.authorization = "Bearer other";
-    EXPECT_FALSE(access.has_token(with_header));
+    EXPECT_EQ(access.role_of(with_header), Role::none);
     with_header.authorization = "Basic secret";
-    EXPECT_FALSE(access.has_token(with_header));
+    EXPECT_EQ(access.role_of(with_header), Role::none);
 }
 
 TEST(Access, TakesTheTokenFromASubprotocol) {
@@ -45,7 +45,7 @@ TEST(Access, TakesTheTokenFromASubprotocol) {
     HttpRequest asking = request("/?token=other");
     const auto offers = [&](const char* offered) {
         asking.subprotocols = offered;
-        return access.has_token(asking);
+        return access.role_of(asking) != Role::none;
     };
     EXPECT_TRUE(offers("relume.v1, relume.token.c2VjcmV0Pz4"));
     EXPECT_TRUE(offers("relume.token.c2VjcmV0Pz4"));

@@ -53,7 +53,8 @@ class LightSwitches : public testing::Test {
         Relighter relighter(scenes_.find("tiny"), metrics, std::chrono::seconds(1));
         EXPECT_TRUE(
             relighter
-                .set_state(state, {.environment = environments_.find("grey"), .blend = nullptr})
+                .set_state(state, {.environment = environments_.find("grey"), .blend = nullptr},
+                           kAllStages)
                 .empty());
         Relighter* const self = &relighter;
         while (!relighter.at_rest()) {

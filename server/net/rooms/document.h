@@ -1,0 +1,62 @@
+// What the people in a room have agreed on: one state, changed by edits that are numbered.
+#pragma once
+
+#include "protocol/wire/limits.h"
+#include "protocol/wire/messages.h"
+#include "protocol/wire/room_state.h"
+#include "server/net/rooms/named_environments.h"
+#include "server/net/rooms/stages.h"
+#include "server/net/rooms/viewer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace relume::net {
+
+// One entry of the document's history.
+struct DocumentChange {
+    std::uint64_t revision = 0;
+    nlohmann::json patch;                  // normalised
+    std::optional<ViewerId> author;        // none when the server itself made it
+    std::optional<std::uint64_t> edit_id;  // of the author's message
+    wire::Stages stages;
+};
+
+// Not thread-safe.
+class Document {
+  public:
+    // Revision 0 is the default state under this environment.
+    explicit Document(std::shared_ptr<Environment> environment);
+
+    // Throws wire::WireError naming what in the patch cannot be; the document is then as
+    // before.
+    [[nodiscard]] DocumentChange edit(ViewerId author,
+                                      const wire::Edit& edit,
+                                      const wire::Limits& limits,
+                                      const EnvironmentLibrary& library);
+    // Takes the map that is now behind a name, where the state names it: the change names it
+    // once more. Nothing where it does not.
+    [[nodiscard]] std::optional<DocumentChange> environment_replaced(
+        const std::string& name, const EnvironmentLibrary& library);
+
+    [[nodiscard]] const wire::RoomState& state() const { return state_; }
+    [[nodiscard]] const NamedEnvironments& environments() const { return environments_; }
+    [[nodiscard]] std::uint64_t revision() const { return revision_; }
+    // The last one that may have changed linear pixels: an image of it, or of a later
+    // revision, shows the state, whatever display and policy have become since.
+    [[nodiscard]] std::uint64_t revision_of_pixels() const { return revision_of_pixels_; }
+
+  private:
+    void advance(const DocumentChange& change);
+
+    wire::RoomState state_;
+    NamedEnvironments environments_;
+    std::uint64_t revision_ = 0;
+    std::uint64_t revision_of_pixels_ = 0;
+};
+
+}  // namespace relume::net
