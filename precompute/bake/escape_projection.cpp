@@ -1,7 +1,5 @@
 #include "precompute/bake/escape_projection.h"
 
-#include "precompute/bake/path_tracer.h"
-
 #include <array>
 
 namespace relume::bake {
@@ -9,16 +7,13 @@ namespace {
 
 class ShrunkEscapes final : public EscapeProjection {
   public:
-    ShrunkEscapes(std::uint32_t face_resolution, float standard_errors)
-        : face_resolution_(face_resolution), standard_errors_(standard_errors) {}
+    explicit ShrunkEscapes(float standard_errors) : standard_errors_(standard_errors) {}
 
-    void project(std::vector<Contribution>& contributions,
-                 std::vector<Coefficient>& coefficients) const override {
-        project_with_shrinkage(face_resolution_, contributions, standard_errors_, coefficients);
+    void project(EscapeSum& escapes, std::vector<Coefficient>& coefficients) const override {
+        project_with_shrinkage(escapes, standard_errors_, coefficients);
     }
 
   private:
-    std::uint32_t face_resolution_;
     float standard_errors_;
 };
 
@@ -27,8 +22,7 @@ class BinnedEscapes final : public EscapeProjection {
     explicit BinnedEscapes(std::shared_ptr<const basis::CubemapProjection> projection)
         : projection_(std::move(projection)) {}
 
-    void project(std::vector<Contribution>& contributions,
-                 std::vector<Coefficient>& coefficients) const override {
+    void project(EscapeSum& escapes, std::vector<Coefficient>& coefficients) const override {
         const std::uint32_t n = projection_->basis().face_resolution();
         const std::size_t count = projection_->basis().coefficient_count();
         thread_local std::vector<float> texels;
@@ -37,9 +31,9 @@ class BinnedEscapes final : public EscapeProjection {
         const std::size_t first = coefficients.size();
         coefficients.resize(first + count);
         for (int c = 0; c < 3; ++c) {
-            texels.assign(basis::texel_count(n), 0.0F);
-            for (const Contribution& one : contributions) {
-                texels[texel_index_from_key(n, one.texel)] += one.value[c];
+            texels.resize(basis::texel_count(n));
+            for (std::uint32_t key = 0; key < texels.size(); ++key) {
+                texels[texel_index_from_key(n, key)] = escapes.nodes()[key].sum[c];
             }
             projection_->project_response(texels, row);
             for (std::uint32_t j = 0; j < count; ++j) {
@@ -59,7 +53,7 @@ std::unique_ptr<const EscapeProjection> EscapeProjection::onto(
     std::shared_ptr<const basis::CubemapProjection> projection, float standard_errors) {
     const basis::LightBasis& basis = projection->basis();
     if (basis.kind() == basis::LightBasis::Kind::haar) {
-        return std::make_unique<ShrunkEscapes>(basis.face_resolution(), standard_errors);
+        return std::make_unique<ShrunkEscapes>(standard_errors);
     }
     return std::make_unique<BinnedEscapes>(std::move(projection));
 }

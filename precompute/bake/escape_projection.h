@@ -23,9 +23,8 @@ class EscapeProjection {
     EscapeProjection(const EscapeProjection&) = delete;
     EscapeProjection& operator=(const EscapeProjection&) = delete;
 
-    // Appends the coefficients of the contributions' sum. Reorders `contributions`.
-    virtual void project(std::vector<Contribution>& contributions,
-                         std::vector<Coefficient>& coefficients) const = 0;
+    // Appends the coefficients of the sum. Leaves nothing of use in `escapes`.
+    virtual void project(EscapeSum& escapes, std::vector<Coefficient>& coefficients) const = 0;
 
   protected:
     EscapeProjection() = default;

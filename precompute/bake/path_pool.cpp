@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace relume::bake {
 namespace {
@@ -45,30 +46,17 @@ float similarity(const PixelSurface& own, float nearness, const PixelSurface& ot
     return std::exp(-0.5F * exponent);
 }
 
-void append(const SurfacePaths& paths, float weight, std::vector<Contribution>& contributions) {
-    const float each = weight / static_cast<float>(paths.paths);
-    for (const Escape& escape : paths.escapes) {
-        contributions.push_back({.texel = escape.texel, .value = escape.weight * each});
-    }
-}
-
 }  // namespace
-
-void gather_own(const SurfacePaths& paths, std::vector<Contribution>& contributions) {
-    contributions.clear();
-    append(paths, 1, contributions);
-}
 
 void PathPool::gather(std::uint32_t x,
                       std::uint32_t y,
                       std::uint32_t surface,
-                      std::vector<Contribution>& contributions) const {
+                      EscapeSum& escapes) const {
     const TracedPixel& centre = window_.pixel(x, y);
     if (radius_ == 0) {
-        gather_own(centre.paths[surface], contributions);
+        escapes.add(centre.paths[surface], 1);
         return;
     }
-    contributions.clear();
     const PixelSurface& own = centre.view.surfaces[surface];
     const float nearness = centre.paths[surface].nearness;
     const float falloff = 2.0F / squared(static_cast<float>(radius_));  // σ = radius/2
@@ -76,6 +64,12 @@ void PathPool::gather(std::uint32_t x,
     const std::uint32_t right = std::min(x + radius_ + 1, window_.columns().right);
     const std::uint32_t top = std::max(y > radius_ ? y - radius_ : 0, window_.top());
     const std::uint32_t bottom = std::min(y + radius_ + 1, window_.bottom());
+    struct Weighed {
+        const SurfacePaths* paths;
+        float weight;
+    };
+    thread_local std::vector<Weighed> pooled;
+    pooled.clear();
     float total = 0;
     for (std::uint32_t row = top; row < bottom; ++row) {
         for (std::uint32_t column = left; column < right; ++column) {
@@ -88,14 +82,14 @@ void PathPool::gather(std::uint32_t x,
                 const float weight = near * pixel.view.surfaces[i].share *
                                      similarity(own, nearness, pixel.view.surfaces[i]);
                 if (weight >= kLeastWeight * own.share) {
-                    append(pixel.paths[i], weight, contributions);
+                    pooled.push_back({.paths = &pixel.paths[i], .weight = weight});
                     total += weight;
                 }
             }
         }
     }
-    for (Contribution& one : contributions) {
-        one.value /= total;
+    for (const Weighed& one : pooled) {
+        escapes.add(*one.paths, one.weight / total);
     }
 }
 

@@ -7,11 +7,10 @@
 // geometry alone, never on what the paths found: pooling blurs, it does not skew.
 #pragma once
 
-#include "precompute/bake/shrinkage.h"
+#include "precompute/bake/escape_sum.h"
 #include "precompute/bake/tile_window.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace relume::bake {
 
@@ -20,19 +19,16 @@ class PathPool {
     PathPool(const TileWindow& window, std::uint32_t radius)
         : window_(window), radius_(radius) {}
 
-    // Replaces `contributions` by the pooled paths of one surface of pixel (x, y), without its
-    // reflectance. The pixel and those within the radius are in the window. Thread-safe.
+    // Adds the pooled paths of one surface of pixel (x, y), without its reflectance. The pixel
+    // and those within the radius are in the window. Thread-safe for different sums.
     void gather(std::uint32_t x,
                 std::uint32_t y,
                 std::uint32_t surface,
-                std::vector<Contribution>& contributions) const;
+                EscapeSum& escapes) const;
 
   private:
     const TileWindow& window_;
     std::uint32_t radius_;
 };
-
-// Paths of one surface alone.
-void gather_own(const SurfacePaths& paths, std::vector<Contribution>& contributions);
 
 }  // namespace relume::bake

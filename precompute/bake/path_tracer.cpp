@@ -4,6 +4,7 @@
 #include "protocol/basis/cubemap.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace relume::bake {
@@ -70,6 +71,13 @@ void PathTracer::trace_path(const PixelSurface& surface,
     Imath::V3f weight{1, 1, 1};
     for (std::uint32_t event = 0;; ++event) {
         const std::uint64_t dimension = transport::mix_bits(key) + 2 * std::uint64_t{event};
+        const std::uint32_t directions = looks(event, samples_);
+        if (directions > 0) {
+            look_at_sky(point, weight, directions, index, ~dimension, paths);
+            if (event == bounces_) {
+                return;
+            }
+        }
         const scene::SurfacePoint::Sample sample =
             point.sample(sobol_point(index, dimension + 1).x, sobol_point(index, dimension));
         if (sample.pdf <= 0 || largest(sample.weight) <= 0) {
@@ -79,12 +87,12 @@ void PathTracer::trace_path(const PixelSurface& surface,
             }
         }
         weight *= event == 0 ? demodulated(point.bsdf, sample.weight) : sample.weight;
-        const Imath::V3f origin = offset_origin(point);
-        const auto hit = caster_.closest_hit(origin, sample.wi);
+        const auto hit = caster_.closest_hit(offset_origin(point), sample.wi);
         ++paths.rays;
         if (!hit) {
-            if (event > 0) {  // else it is direct light
-                record(sample.wi, weight, paths);
+            if (event > 0 && directions == 0) {  // else it is direct light, or was looked at
+                paths.escapes.push_back({.weight = weight, .count = 1});
+                paths.texels.push_back(key_from_direction(sample.wi));
             }
             return;
         }
@@ -106,14 +114,68 @@ void PathTracer::trace_path(const PixelSurface& surface,
     }
 }
 
-void PathTracer::record(const Imath::V3f& direction,
-                        const Imath::V3f& weight,
-                        SurfacePaths& paths) const {
+void PathTracer::look_at_sky(const scene::SurfacePoint& point,
+                             const Imath::V3f& weight,
+                             std::uint32_t looks,
+                             std::uint32_t index,
+                             std::uint64_t dimension,
+                             SurfacePaths& paths) const {
+    RayPacket packet(offset_origin(point));
+    std::array<scene::SurfacePoint::Sample, kPacketSize> samples;
+    std::uint32_t wanted = 0;
+    for (std::uint32_t i = 0; i < looks; ++i) {
+        // An aligned run of a sequence is stratified by itself.
+        const std::uint32_t at = index * looks + i;
+        samples[i] = point.sample(sobol_point(at, dimension + 1).x, sobol_point(at, dimension));
+        packet.x()[i] = samples[i].wi.x;
+        packet.y()[i] = samples[i].wi.y;
+        packet.z()[i] = samples[i].wi.z;
+        wanted |= samples[i].pdf > 0 && largest(samples[i].weight) > 0 ? 1U << i : 0U;
+    }
+    std::uint32_t open = caster_.unoccluded(packet, wanted);
+    paths.rays += static_cast<std::uint64_t>(std::popcount(wanted));
+    const Imath::V3f each = weight / static_cast<float>(looks);
+    // Of a Lambert surface all weights are one, and kept once.
+    const Imath::V3f* last = nullptr;
+    for (; open != 0; open &= open - 1) {
+        const auto& [wi, sample_weight, pdf] =
+            samples[static_cast<std::size_t>(std::countr_zero(open))];
+        if (last == nullptr || *last != sample_weight) {
+            paths.escapes.push_back({.weight = each * sample_weight, .count = 0});
+            last = &sample_weight;
+        }
+        ++paths.escapes.back().count;
+        paths.texels.push_back(key_from_direction(wi));
+    }
+}
+
+std::uint32_t PathTracer::key_from_direction(const Imath::V3f& direction) const {
     const basis::Texel texel = basis::texel_from_direction(face_resolution_, direction);
-    paths.escapes.push_back(
-        {.texel = texel_key(face_resolution_, static_cast<std::uint32_t>(texel.face),
-                            morton_index(texel.column, texel.row)),
-         .weight = weight});
+    return texel_key(face_resolution_, static_cast<std::uint32_t>(texel.face),
+                     morton_index(texel.column, texel.row));
+}
+
+std::uint32_t PathTracer::looks(std::uint32_t event, std::uint32_t samples) {
+    // Of light that was scattered twice little is left.
+    constexpr std::uint32_t kLastEvent = 3;
+    constexpr std::uint32_t kOfPixel = 2048;
+    constexpr std::uint32_t kLaterOfPixel = 512;
+    constexpr std::uint32_t kLaterOfPath = 4;
+    if (event == 0 || event > kLastEvent) {
+        return 0;
+    }
+    const std::uint32_t count =
+        event == 1 ? std::min(kOfPixel / samples, static_cast<std::uint32_t>(kPacketSize))
+                   : std::min(kLaterOfPixel / samples, kLaterOfPath);
+    return count > 1 ? count : 0;
+}
+
+std::uint64_t PathTracer::most_bytes(std::uint32_t bounces, std::uint32_t samples) {
+    std::uint64_t escapes = 1;
+    for (std::uint32_t event = 1; event <= bounces && looks(event, samples) > 0; ++event) {
+        escapes += looks(event, samples);
+    }
+    return samples * escapes * (sizeof(Escapes) + sizeof(std::uint32_t));
 }
 
 }  // namespace relume::bake

@@ -6,22 +6,25 @@
 
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace relume::bake {
 
-// A path that left the scene. `texel` is a key that sorts by face, then along a Morton curve
-// (texel_key below).
-struct Escape {
-    std::uint32_t texel = 0;
+// Directions of one weight in which paths left the scene.
+struct Escapes {
     Imath::V3f weight{0, 0, 0};  // response per unit radiance, over the surface's reflectance
+    std::uint32_t count = 0;
 };
 
 // All paths from one PixelSurface. Response of the surface to radiance L(ω): reflectance ·
-// Σ weight · L / paths.
+// Σ weight · L / paths, over the texels of all escapes.
 struct SurfacePaths {
-    std::vector<Escape> escapes;
+    std::vector<Escapes> escapes;
+    // One after another, as many as the escapes count: keys that sort by face, then along a
+    // Morton curve (texel_key below).
+    std::vector<std::uint32_t> texels;
     std::uint32_t paths = 0;
     float nearness = 0;  // mean of 1/distance to what the paths hit first, per world unit
     std::uint64_t rays = 0;
@@ -41,8 +44,18 @@ struct SurfacePaths {
 [[nodiscard]] std::size_t texel_index_from_key(std::uint32_t face_resolution,
                                                std::uint32_t key);
 
+// A path looks at the sky from its vertices in several directions at once: what it costs to get
+// there is most of a path's cost, and a small bright light is found by chance. One direction
+// more goes on to the next vertex. Where paths are many they look less, and at last that one
+// direction is all there is.
 class PathTracer {
   public:
+    // In how many directions a path looks at scattering event `event`, the pixel's own surface
+    // being event 0: none, or more than one.
+    [[nodiscard]] static std::uint32_t looks(std::uint32_t event, std::uint32_t samples);
+    // What is kept of a pixel's paths at most, in bytes.
+    [[nodiscard]] static std::uint64_t most_bytes(std::uint32_t bounces, std::uint32_t samples);
+
     // `bounces`: scattering events after the first surface, at least 1.
     PathTracer(const RayCaster& caster,
                std::uint32_t face_resolution,
@@ -68,9 +81,14 @@ class PathTracer {
                     std::uint32_t index,
                     std::uint64_t key,
                     SurfacePaths& paths) const;
-    void record(const Imath::V3f& direction,
-                const Imath::V3f& weight,
-                SurfacePaths& paths) const;
+    // Records the directions, of `looks` that the point scatters to, that leave the scene.
+    void look_at_sky(const scene::SurfacePoint& point,
+                     const Imath::V3f& weight,
+                     std::uint32_t looks,
+                     std::uint32_t index,
+                     std::uint64_t dimension,
+                     SurfacePaths& paths) const;
+    [[nodiscard]] std::uint32_t key_from_direction(const Imath::V3f& direction) const;
 
     const RayCaster& caster_;
     std::uint32_t face_resolution_;

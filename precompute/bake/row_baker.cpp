@@ -72,13 +72,14 @@ void RowBaker::add_indirect(const TracedPixel& pixel,
                             CoefficientRow& row,
                             Scratch& scratch) const {
     for (std::uint32_t i = 0; i < pixel.paths.size(); ++i) {
+        scratch.escapes.reset(projection_->basis().face_resolution());
         if (pool != nullptr) {
-            pool->gather(x, y, i, scratch.contributions);
+            pool->gather(x, y, i, scratch.escapes);
         } else {
-            gather_own(pixel.paths[i], scratch.contributions);
+            scratch.escapes.add(pixel.paths[i], 1);
         }
         scratch.coefficients.clear();
-        escapes_->project(scratch.contributions, scratch.coefficients);
+        escapes_->project(scratch.escapes, scratch.coefficients);
         const PixelSurface& surface = pixel.view.surfaces[i];
         const Imath::V3f factor =
             reflectance(surface.point.bsdf) * surface.tint * surface.share;

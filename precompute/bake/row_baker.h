@@ -34,7 +34,7 @@ class RowBaker {
         DirectLight::Scratch direct;
         TexelRow texels;
         std::vector<float> grey;  // coefficients of a row without colour
-        std::vector<Contribution> contributions;
+        EscapeSum escapes;
         std::vector<Coefficient> coefficients;
     };
 

@@ -6,30 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 
 namespace relume::bake {
 namespace {
-
-// A square of 4^k texels: what falls into it, and the sum of its squares.
-struct Node {
-    std::uint32_t key = 0;
-    Imath::V3f sum{0, 0, 0};
-    float squares = 0;
-};
-
-std::vector<Node> leaves(std::vector<Contribution>& contributions) {
-    std::sort(contributions.begin(), contributions.end(),
-              [](const Contribution& a, const Contribution& b) { return a.texel < b.texel; });
-    std::vector<Node> nodes;
-    for (const Contribution& one : contributions) {
-        if (nodes.empty() || nodes.back().key != one.texel) {
-            nodes.push_back({.key = one.texel});
-        }
-        nodes.back().sum += one.value;
-        nodes.back().squares += one.value.length2();
-    }
-    return nodes;
-}
 
 float garrote(const Imath::V3f& estimate, float variance, float standard_errors) {
     const float energy = estimate.length2();
@@ -87,33 +67,38 @@ class LevelWriter {
 
 }  // namespace
 
-void project_with_shrinkage(std::uint32_t face_resolution,
-                            std::vector<Contribution>& contributions,
+void project_with_shrinkage(EscapeSum& escapes,
                             float standard_errors,
                             std::vector<Coefficient>& coefficients) {
-    std::vector<Node> nodes = leaves(contributions);
-    const auto levels = static_cast<std::uint32_t>(std::countr_zero(face_resolution));
+    const std::uint32_t n = escapes.face_resolution();
+    // Squares of 4^k texels lie in the order of their keys: four children follow each other,
+    // and their parent is written over what has been read.
+    std::span<EscapeNode> nodes = escapes.nodes();
+    const auto levels = static_cast<std::uint32_t>(std::countr_zero(n));
     for (std::uint32_t level = levels; level-- > 0;) {
-        LevelWriter writer(face_resolution, level, standard_errors, coefficients);
-        std::size_t parents = 0;
-        for (std::size_t i = 0; i < nodes.size();) {
-            const std::uint32_t key = nodes[i].key >> 2U;
+        LevelWriter writer(n, level, standard_errors, coefficients);
+        const std::size_t parents = nodes.size() / 4;
+        for (std::size_t i = 0; i < parents; ++i) {
+            EscapeNode parent;
             std::array<Imath::V3f, 4> quarter;
-            quarter.fill(Imath::V3f(0, 0, 0));  // Imath's default is no value at all
-            Node parent{.key = key};
-            for (; i < nodes.size() && nodes[i].key >> 2U == key; ++i) {
-                quarter[nodes[i].key & 3U] = nodes[i].sum;
-                parent.sum += nodes[i].sum;
-                parent.squares += nodes[i].squares;
+            for (std::size_t q = 0; q < 4; ++q) {
+                const EscapeNode& child = nodes[4 * i + q];
+                quarter[q] = child.sum;
+                parent.sum += child.sum;
+                parent.squares += child.squares;
             }
-            writer.write(key, quarter, parent.squares);
-            nodes[parents++] = parent;
+            if (parent.squares > 0) {
+                writer.write(static_cast<std::uint32_t>(i), quarter, parent.squares);
+            }
+            nodes[i] = parent;
         }
-        nodes.resize(parents);
+        nodes = nodes.first(parents);
     }
-    for (const Node& face : nodes) {
-        coefficients.push_back({.index = face.key * face_resolution * face_resolution,
-                                .value = face.sum / static_cast<float>(face_resolution)});
+    for (std::uint32_t face = 0; face < nodes.size(); ++face) {
+        if (nodes[face].squares > 0) {
+            coefficients.push_back(
+                {.index = face * n * n, .value = nodes[face].sum / static_cast<float>(n)});
+        }
     }
 }
 

@@ -7,6 +7,8 @@
 // are left as they are, so no energy is lost on any face.
 #pragma once
 
+#include "precompute/bake/escape_sum.h"
+
 #include <Imath/ImathVec.h>
 
 #include <cstdint>
@@ -14,21 +16,14 @@
 
 namespace relume::bake {
 
-// A path's contribution to the row, already divided by the number of paths.
-struct Contribution {
-    std::uint32_t texel = 0;  // texel_key
-    Imath::V3f value{0, 0, 0};
-};
-
 struct Coefficient {
     std::uint32_t index = 0;  // basis/haar.h
     Imath::V3f value{0, 0, 0};
 };
 
-// Appends the non-zero coefficients of the contributions' sum. `standard_errors` is t; 0 keeps
-// everything. Reorders `contributions`.
-void project_with_shrinkage(std::uint32_t face_resolution,
-                            std::vector<Contribution>& contributions,
+// Appends the non-zero coefficients of the sum. `standard_errors` is t; 0 keeps everything.
+// Leaves nothing of use in `escapes`.
+void project_with_shrinkage(EscapeSum& escapes,
                             float standard_errors,
                             std::vector<Coefficient>& coefficients);
 

@@ -21,9 +21,11 @@ TileWindow::TileWindow(const RayCaster& caster,
         transport::TileGrid{camera.width(), camera.height()}.tiles_x();
     const std::uint32_t tile_rows =
         std::max(1U, transport::kMaxBlocksPerShard / std::max(tiles_x, 1U));
-    const std::uint64_t rows = std::uint64_t{tile_rows} * transport::kTileSide +
-                               2 * std::uint64_t{parameters.pool_radius};
-    const std::uint64_t bytes = rows * camera.width() * parameters.samples * sizeof(Escape);
+    const std::uint64_t rows = std::min(std::uint64_t{tile_rows} * transport::kTileSide +
+                                            2 * std::uint64_t{parameters.pool_radius},
+                                        std::uint64_t{camera.height()});
+    const std::uint64_t bytes =
+        rows * camera.width() * PathTracer::most_bytes(parameters.bounces, parameters.samples);
     if (parameters.bounces > 0 && bytes > kMaxPathBytes) {
         throw BakeError(fmt::format(
             "samples is {}: {} rows of {} pixels would keep {} MiB of paths, expected at most "

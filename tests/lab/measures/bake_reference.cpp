@@ -217,12 +217,15 @@ class ReferenceTracer {
         const bake::SurfacePaths paths = tracer.trace(surface, 0, column, row);
         const Imath::V3f factor =
             bake::reflectance(surface.point.bsdf) / static_cast<float>(paths.paths);
-        for (const bake::Escape& escape : paths.escapes) {
-            const std::size_t texel =
-                bake::texel_index_from_key(options_.face_resolution, escape.texel);
-            for (int c = 0; c < 3; ++c) {
-                scratch.response[static_cast<std::size_t>(c)][texel] +=
-                    factor[c] * escape.weight[c];
+        auto key = paths.texels.begin();
+        for (const bake::Escapes& escapes : paths.escapes) {
+            for (std::uint32_t i = 0; i < escapes.count; ++i, ++key) {
+                const std::size_t texel =
+                    bake::texel_index_from_key(options_.face_resolution, *key);
+                for (int c = 0; c < 3; ++c) {
+                    scratch.response[static_cast<std::size_t>(c)][texel] +=
+                        factor[c] * escapes.weight[c];
+                }
             }
         }
     }

@@ -24,6 +24,11 @@ std::uint32_t key_of(std::uint32_t face, std::uint32_t row, std::uint32_t column
     return texel_key(kN, face, morton_index(column, row));
 }
 
+struct Contribution {
+    std::uint32_t texel = 0;
+    Imath::V3f value{0, 0, 0};
+};
+
 // Contributions anywhere on the sphere, of total weight one.
 std::vector<Contribution> scattered(std::size_t count, std::uint64_t seed) {
     std::vector<Contribution> all;
@@ -46,9 +51,18 @@ std::array<std::vector<float>, 3> dense(const std::vector<Coefficient>& coeffici
     return row;
 }
 
-std::vector<Coefficient> project(std::vector<Contribution> contributions, float t) {
+std::vector<Coefficient> project(const std::vector<Contribution>& contributions, float t) {
+    SurfacePaths paths;
+    paths.paths = 1;
+    for (const auto& [texel, value] : contributions) {
+        paths.escapes.push_back({.weight = value, .count = 1});
+        paths.texels.push_back(texel);
+    }
+    EscapeSum escapes;
+    escapes.reset(kN);
+    escapes.add(paths, 1);
     std::vector<Coefficient> coefficients;
-    project_with_shrinkage(kN, contributions, t, coefficients);
+    project_with_shrinkage(escapes, t, coefficients);
     return coefficients;
 }
 
