@@ -92,9 +92,10 @@ class OptionSet {
 void add_places(OptionSet& options, Configuration& c) {
     options.add("scenes", c.scenes, "Folder of NAME.relume directories")
         ->check(CLI::ExistingDirectory);
-    options.add_milliseconds("scenes-interval-ms", c.scenes_interval,
-                             "Between two looks for scenes that came, changed or went; 0 looks "
-                             "again on SIGHUP alone");
+    options.add_milliseconds(
+        "scenes-interval-ms", c.scenes_interval,
+        "Between two looks for scenes and environments that came, changed or "
+        "went; 0 looks again on SIGHUP alone");
     options.add("environments", c.environments, "Folder of .hdr and .exr files")
         ->check(CLI::ExistingDirectory);
     options.add_choice(

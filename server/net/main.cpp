@@ -1,5 +1,5 @@
 // relume-server: serves relit scenes over HTTP and WebSockets until SIGTERM or SIGINT; SIGHUP
-// makes it look for new scenes.
+// makes it look for new scenes and environments.
 #include "protocol/base/files/disk_room.h"
 #include "server/net/base/log_sink.h"
 #include "server/net/configuration.h"
@@ -11,6 +11,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,11 @@ int serve(const relume::net::Configuration& configuration) {
     }
     spdlog::info("signal number={}", signal);
     server.drain();
+    if (server.is_opening_scenes()) {
+        // Nobody will see it, and it may take minutes: it is left half way.
+        spdlog::shutdown();
+        std::quick_exit(0);
+    }
     return 0;
 }
 

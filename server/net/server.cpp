@@ -7,7 +7,8 @@
 #include "server/net/http/http_routes.h"
 #include "server/net/http/static_files.h"
 #include "server/net/http/upload.h"
-#include "server/net/library/scene_watcher.h"
+#include "server/net/library/environment_folder.h"
+#include "server/net/library/folder_watcher.h"
 #include "server/net/rooms/worker_pool.h"
 #include "server/net/sockets/listener.h"
 
@@ -20,6 +21,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -39,12 +41,15 @@ StaticFiles files_from(const std::filesystem::path& web_root) {
     return web_root.empty() ? StaticFiles() : StaticFiles(web_root);
 }
 
-EnvironmentLibrary& with_folder(EnvironmentLibrary& library,
-                                const Configuration& configuration) {
+// Refreshed once; throws std::runtime_error if it cannot be read.
+std::optional<EnvironmentFolder> folder_of(EnvironmentLibrary& library,
+                                           const Configuration& configuration) {
+    std::optional<EnvironmentFolder> folder;
     if (!configuration.environments.empty()) {
-        library.add_folder(configuration.environments, configuration.centre);
+        folder.emplace(library, configuration.environments, configuration.centre);
+        folder->refresh();
     }
-    return library;
+    return folder;
 }
 
 UploadOptions upload_options_from(const Configuration& configuration) {
@@ -63,6 +68,7 @@ struct Server::Parts {
     explicit Parts(const Configuration& c)
         : configuration(c),
           environments(c.environment_bounds),
+          environment_folder(folder_of(environments, c)),
           files(files_from(c.web_root)),
           access(
               c.token,
@@ -73,11 +79,8 @@ struct Server::Parts {
           keep_running(io.get_executor()),
           workers(c.workers, {.edits = 1, .refinements = engine::kMaxBatchMembers}),
           encoders(c.workers, {}),
-          rooms(std::make_shared<Rooms>(scenes,
-                                        with_folder(environments, c),
-                                        RoomThreads{workers, encoders},
-                                        metrics,
-                                        c.rooms)),
+          rooms(std::make_shared<Rooms>(
+              scenes, environments, RoomThreads{workers, encoders}, metrics, c.rooms)),
           routes(scenes, environments, files, access, readiness, metrics),
           uploads(environments, access, upload_options_from(c)),
           slow_requests(kPreviewThreads + c.connection.concurrent_uploads),
@@ -101,6 +104,7 @@ struct Server::Parts {
     Readiness readiness;
     SceneLibrary scenes;
     EnvironmentLibrary environments;
+    std::optional<EnvironmentFolder> environment_folder;
     StaticFiles files;
     Access access;
     TrustedProxies proxies;
@@ -117,14 +121,41 @@ struct Server::Parts {
     ConnectionServices services;
     Listener listener;
     std::vector<std::jthread> io_threads;
-    std::optional<SceneWatcher> watcher;
+    bool folders_are_readable = true;  // at the last look
+    std::optional<FolderWatcher> watcher;
     bool drained = false;
 
+    void look(Patience patience, const std::stop_token& stop);
     void scenes_are_open();
     void count_scenes();
     void warm_up();
     void wait_for(Clock::time_point deadline, const std::function<bool()>& done) const;
 };
+
+// The first look opens the scenes; each later one follows what has changed.
+void Server::Parts::look(Patience patience, const std::stop_token& stop) {
+    bool scenes_changed = false;
+    try {
+        scenes_changed = scenes.refresh(configuration.scenes, patience, stop);
+        if (environment_folder && readiness.phase() != Readiness::Phase::starting) {
+            environment_folder->refresh(patience);
+        }
+        folders_are_readable = true;
+    } catch (const std::exception& failure) {
+        if (std::exchange(folders_are_readable, false)) {
+            spdlog::error("folder_unreadable reason={:?}", failure.what());
+        }
+    }
+    if (stop.stop_requested()) {
+        return;
+    }
+    if (readiness.phase() == Readiness::Phase::starting) {
+        scenes_are_open();
+    } else if (scenes_changed) {
+        count_scenes();
+        rooms->drop_outdated();
+    }
+}
 
 void Server::Parts::count_scenes() {
     metrics.set_scenes(scenes.list().size(), scenes.total_bytes());
@@ -181,15 +212,10 @@ Server::Server(const Configuration& configuration)
     for (std::size_t i = 0; i < configuration.io_threads; ++i) {
         parts.io_threads.emplace_back([&parts] { parts.io.run(); });
     }
-    parts.watcher.emplace(
-        parts.scenes,
-        SceneWatcher::Options{.folder = configuration.scenes,
-                              .interval = configuration.scenes_interval},
-        [&parts] { parts.scenes_are_open(); },
-        [&parts] {
-            parts.count_scenes();
-            parts.rooms->drop_outdated();
-        });
+    parts.watcher.emplace(configuration.scenes_interval,
+                          [&parts](Patience patience, const std::stop_token& stop) {
+                              parts.look(patience, stop);
+                          });
 }
 
 Server::~Server() {
@@ -209,6 +235,10 @@ void Server::reload() {
     parts_->watcher->look_now();
 }
 
+bool Server::is_opening_scenes() const {
+    return parts_->watcher->is_looking();
+}
+
 const Metrics& Server::metrics() const {
     return parts_->metrics;
 }
@@ -222,6 +252,7 @@ void Server::drain() {
     const std::chrono::milliseconds bound(parts.configuration.drain_milliseconds);
     spdlog::info("draining connections={}", parts.listener.connections());
     parts.readiness.set_draining();
+    parts.watcher->stop();
     parts.listener.stop();
     parts.rooms->stop_edits();
     parts.uploads.stop();
@@ -235,7 +266,6 @@ void Server::drain() {
     parts.slow_requests.join();
     parts.workers.stop();
     parts.encoders.stop();
-    parts.watcher.reset();
     spdlog::info("drained connections_cut={} milliseconds={:.0f}", cut,
                  milliseconds(Clock::now() - begin));
 }
@@ -243,7 +273,7 @@ void Server::drain() {
 void check_configuration(const Configuration& configuration) {
     static_cast<void>(endpoint_from_address(configuration.listen));
     EnvironmentLibrary environments(configuration.environment_bounds);
-    with_folder(environments, configuration);
+    static_cast<void>(folder_of(environments, configuration));
     if (!environments.find(configuration.rooms.environment)) {
         throw std::runtime_error(
             fmt::format("--default-environment: there is no environment {}",

@@ -26,11 +26,14 @@ class Server {
     void wait_until_started() const;
     [[nodiscard]] const Metrics& metrics() const;
 
-    // Looks at the folder of scenes again, now.
+    // Looks at the folders of scenes and environments again, now.
     void reload();
+    // A scene is being opened: whoever destroys the server waits until it is.
+    [[nodiscard]] bool is_opening_scenes() const;
 
     // Takes no more connections and edits, sends the images that edits wait for, closes all
-    // sessions (1001), and ends all threads, in at most the time configured.
+    // connections (1001), and ends all threads but one that is opening a scene, in at most the
+    // time configured.
     void drain();
 
   private:

@@ -1,30 +1,17 @@
 #include "server/net/library/environment_library.h"
 
-#include "protocol/base/text/names.h"
 #include "protocol/wire/errors.h"
 #include "server/light/procedural_environment.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 namespace relume::net {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-bool is_environment_file(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".hdr" || extension == ".exr";
-}
 
 // All uses of an upload but the library's own two references.
 bool in_use(const std::shared_ptr<Environment>& environment) {
@@ -37,70 +24,59 @@ EnvironmentLibrary::EnvironmentLibrary(const EnvironmentBounds& bounds)
     : bounds_(bounds), cache_(std::make_shared<ResidentCache>(bounds.cache_bytes)) {
     const std::uint32_t height = light::SkyParameters{}.height;
     for (const std::string_view name : light::procedural_environment_names()) {
-        add({.name = std::string(name),
-             .kind = EnvironmentKind::procedural,
-             .width = 2 * height,
-             .height = height},
-            [name] { return light::procedural_environment(name); });
+        put_locked({.name = std::string(name),
+                    .kind = EnvironmentKind::procedural,
+                    .width = 2 * height,
+                    .height = height},
+                   [name] { return light::procedural_environment(name); });
     }
 }
 
-void EnvironmentLibrary::add_folder(const fs::path& folder, light::MapCentre centre) {
-    std::error_code error;
-    std::vector<fs::path> files;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        if (is_environment_file(entry->path()) && files.size() < kMaxFiles) {
-            files.push_back(entry->path());
+void EnvironmentLibrary::put_file(const std::string& name,
+                                  std::uint32_t width,
+                                  std::uint32_t height,
+                                  Environment::Load load) {
+    bool replaces = false;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto known = environments_.find(name);
+        replaces = known != environments_.end();
+        if (replaces && known->second->description().kind != EnvironmentKind::file) {
+            throw std::runtime_error(fmt::format("there is a {} environment {} already",
+                                                 name_from(known->second->description().kind),
+                                                 name));
         }
+        put_locked(
+            {.name = name, .kind = EnvironmentKind::file, .width = width, .height = height},
+            std::move(load));
     }
-    if (error) {
-        throw std::runtime_error(fmt::format("cannot list the environments in {}: {}",
-                                             folder.string(), error.message()));
-    }
-    std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) {
-        try {
-            add_file(file, centre);
-        } catch (const std::exception& failure) {
-            spdlog::error("environment_broken file={:?} reason={:?}", file.string(),
-                          failure.what());
-        }
+    if (replaces) {
+        tell_replaced(name);
     }
 }
 
-void EnvironmentLibrary::add_file(const fs::path& file, light::MapCentre centre) {
-    const std::string name = file.stem().string();
-    if (!text::is_name(name)) {
-        throw std::runtime_error(
-            fmt::format("the name of an environment must be {}", text::kNameRule));
-    }
-    if (find(name)) {
-        throw std::runtime_error(fmt::format("there is an environment {} already", name));
-    }
-    const light::ImportOptions options{.centre = centre};
-    const light::EnvironmentHeader header = light::read_environment_header(file, options);
-    add({.name = name,
-         .kind = EnvironmentKind::file,
-         .width = header.width,
-         .height = header.height},
-        [file, options] {
-            light::ImportedEnvironment imported = light::import_environment(file, options);
-            for (const std::string& warning : imported.notes.warnings) {
-                spdlog::warn("environment_changed file={:?} warning={:?}", file.string(),
-                             warning);
-            }
-            return std::move(imported.map);
-        });
-}
-
-void EnvironmentLibrary::add(Environment::Description description, Environment::Load load) {
+void EnvironmentLibrary::remove_file(const std::string& name) {
     const std::lock_guard lock(mutex_);
+    const auto known = environments_.find(name);
+    if (known != environments_.end() &&
+        known->second->description().kind == EnvironmentKind::file) {
+        environments_.erase(known);
+    }
+}
+
+void EnvironmentLibrary::put_locked(Environment::Description description,
+                                    Environment::Load load) {
     std::string name = description.name;
     description.version = ++last_version_;
     environments_.insert_or_assign(
         std::move(name),
         std::make_shared<Environment>(std::move(description), std::move(load), cache_));
+}
+
+void EnvironmentLibrary::tell_replaced(const std::string& name) const {
+    if (tell_replaced_) {
+        tell_replaced_(name);
+    }
 }
 
 void EnvironmentLibrary::check_upload_name(std::string_view name) const {
@@ -114,8 +90,8 @@ void EnvironmentLibrary::check_upload_name(std::string_view name) const {
 
 void EnvironmentLibrary::add_upload(const std::string& name, light::EnvironmentMap map) {
     check_upload_name(name);
-    if (put_upload(name, std::move(map)) && tell_replaced_) {
-        tell_replaced_(name);
+    if (put_upload(name, std::move(map))) {
+        tell_replaced(name);
     }
 }
 

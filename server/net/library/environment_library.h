@@ -1,13 +1,11 @@
 // The environments a server offers: by formula, from the operator's folder, and uploaded.
 #pragma once
 
-#include "server/light/environment_import.h"
 #include "server/net/library/environment.h"
 #include "server/net/library/resident_cache.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <list>
 #include <map>
@@ -28,24 +26,24 @@ struct EnvironmentBounds {
 // Thread-safe.
 class EnvironmentLibrary {
   public:
-    static constexpr std::size_t kMaxFiles = 4096;
-
     // Offers the procedural environments.
     explicit EnvironmentLibrary(const EnvironmentBounds& bounds);
 
-    // Offers every .hdr and .exr of a folder by the name of its file. Reads no more than their
-    // headers; what cannot be used is named in the log and left out. Throws std::runtime_error
-    // if the folder cannot be read.
-    // `centre` is where the centres of all its maps look.
-    void add_folder(const std::filesystem::path& folder,
-                    light::MapCentre centre = light::MapCentre::negative_z);
+    // Offers a map from a file, loaded when it is needed, in place of an earlier file of this
+    // name. Throws std::runtime_error when the name is taken by what is no file.
+    void put_file(const std::string& name,
+                  std::uint32_t width,
+                  std::uint32_t height,
+                  Environment::Load load);
+    // Offers it no more; who uses it keeps it.
+    void remove_file(const std::string& name);
 
     // Offers an uploaded map, in place of an earlier upload of this name. When there are too
     // many, those that no room uses go first. Throws WireError: unsupported when the name is
     // taken by what is no upload, too_many when nothing can be dropped.
     void add_upload(const std::string& name, light::EnvironmentMap map);
-    // Called, without locks held, after an upload has taken the place of an earlier one. Set
-    // before uploads come.
+    // Called, without locks held, after a map has taken the place of an earlier one. Set before
+    // that may happen.
     void when_replaced(std::function<void(const std::string& name)> tell) {
         tell_replaced_ = std::move(tell);
     }
@@ -66,8 +64,8 @@ class EnvironmentLibrary {
         std::size_t bytes;
     };
 
-    void add_file(const std::filesystem::path& file, light::MapCentre centre);
-    void add(Environment::Description description, Environment::Load load);
+    void put_locked(Environment::Description description, Environment::Load load);
+    void tell_replaced(const std::string& name) const;
     // True when there was an earlier one.
     bool put_upload(const std::string& name, light::EnvironmentMap map);
     void drop_unused_upload_locked();

@@ -5,13 +5,10 @@
 #include "protocol/base/text/names.h"
 #include "protocol/base/text/near_names.h"
 #include "protocol/transport/transport.h"
-#include "server/net/library/folder_stamp.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -41,58 +38,36 @@ wire::SceneSummary ServedScene::summary() const {
 
 namespace {
 
-std::vector<fs::path> scene_directories(const fs::path& folder) {
-    std::error_code error;
-    std::vector<fs::path> directories;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        std::error_code not_there;  // it may have gone meanwhile
-        if (entry->path().extension() == ".relume" && entry->is_directory(not_there)) {
-            directories.push_back(entry->path());
-        }
-    }
-    if (error) {
-        throw std::runtime_error(
-            fmt::format("cannot list the scenes in {}: {}", folder.string(), error.message()));
-    }
-    std::sort(directories.begin(), directories.end());
-    return directories;
+bool is_scene(const fs::directory_entry& entry) {
+    std::error_code not_there;  // it may have gone meanwhile
+    return entry.path().extension() == ".relume" && entry.is_directory(not_there);
 }
 
 }  // namespace
 
-bool SceneLibrary::refresh(const fs::path& folder, Patience patience) {
-    std::vector<fs::path> directories = scene_directories(folder);
-    if (directories.size() > kMaxScenes) {
-        if (patience == Patience::none) {
-            spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
-                         directories.size(), kMaxScenes);
-        }
-        directories.resize(kMaxScenes);
-    }
-    for (const fs::path& directory : directories) {
-        seen_.try_emplace(directory);
+SceneLibrary::SceneLibrary() : followed_(is_scene, kMaxScenes) {}
+
+bool SceneLibrary::refresh(const fs::path& folder,
+                           Patience patience,
+                           const std::stop_token& stop) {
+    const auto changes = followed_.look(folder, patience);
+    if (followed_.too_many() > 0 && patience == Patience::none) {
+        spdlog::warn("scenes_left_out folder={:?} found={} served={}", folder.string(),
+                     followed_.too_many(), kMaxScenes);
     }
     bool changed = false;
-    for (auto it = seen_.begin(); it != seen_.end();) {
-        auto& [directory, seen] = *it;
-        const std::uint64_t stamp =
-            std::binary_search(directories.begin(), directories.end(), directory)
-                ? folder_stamp(directory)
-                : 0;
-        const bool settled = patience == Patience::none || stamp == seen.stamp;
-        seen.stamp = stamp;
-        if (settled && stamp != seen.followed_stamp) {
-            seen.followed_stamp = stamp;
-            changed = follow(directory) || changed;
+    for (const FollowedFolder::Change& change : changes) {
+        if (stop.stop_requested()) {
+            break;
         }
-        it = seen.stamp == 0 && seen.followed_stamp == 0 ? seen_.erase(it) : std::next(it);
+        changed = follow(change) || changed;
     }
     return changed;
 }
 
-bool SceneLibrary::follow(const fs::path& directory) {
-    if (seen_.at(directory).stamp == 0) {
+bool SceneLibrary::follow(const FollowedFolder::Change& change) {
+    const fs::path& directory = change.entry;
+    if (change.is_gone) {
         const std::lock_guard lock(mutex_);
         spdlog::info("scene_gone directory={:?}", directory.string());
         return scenes_.erase(directory.stem().string()) != 0;

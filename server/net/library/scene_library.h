@@ -4,6 +4,7 @@
 #include "protocol/wire/scene_summary.h"
 #include "server/engine/scene.h"
 #include "server/net/images/sky_pixels.h"
+#include "server/net/library/followed_folder.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,19 +34,20 @@ struct ServedScene {
 // Thread-safe.
 class SceneLibrary {
   public:
+    SceneLibrary();
+
     static constexpr std::size_t kMaxScenes = 1024;
     static constexpr std::size_t kMaxThumbnailBytes = std::size_t{4} << 20;
-
-    // Whether a change must look the same at two refreshes before it is followed: a directory
-    // that is still being copied is not opened at every look.
-    enum class Patience : std::uint8_t { none, until_settled };
 
     // Offers what lies in the folder now: opens and checks what is new or has changed, one
     // after another, each in parallel within; forgets what is gone. One that cannot be opened
     // is named in the log once, and left out or offered on as it was. True if anything is
     // offered that was not, or the other way round. Throws std::runtime_error if the folder
-    // itself cannot be read. One thread at a time refreshes, while others ask.
-    bool refresh(const std::filesystem::path& folder, Patience patience = Patience::none);
+    // itself cannot be read. One thread at a time refreshes, while others ask; when a stop is
+    // asked for it opens no further scene.
+    bool refresh(const std::filesystem::path& folder,
+                 Patience patience = Patience::none,
+                 const std::stop_token& stop = {});
 
     // By name; null when there is none.
     [[nodiscard]] std::shared_ptr<const ServedScene> find(std::string_view name) const;
@@ -55,15 +58,10 @@ class SceneLibrary {
     [[nodiscard]] std::uint64_t total_bytes() const;
 
   private:
-    // Of a directory, at the last refresh.
-    struct Seen {
-        std::uint64_t stamp = 0;  // 0: it is gone
-        std::uint64_t followed_stamp = 0;
-    };
-    [[nodiscard]] bool follow(const std::filesystem::path& directory);
+    [[nodiscard]] bool follow(const FollowedFolder::Change& change);
     void open(const std::filesystem::path& directory);
 
-    std::map<std::filesystem::path, Seen> seen_;  // of who refreshes
+    FollowedFolder followed_;  // of who refreshes
     mutable std::mutex mutex_;
     std::map<std::string, std::shared_ptr<const ServedScene>, std::less<>> scenes_;
 };

@@ -93,8 +93,10 @@ std::variant<std::shared_ptr<Room>, Rooms::Refusal> Rooms::room_locked(
         return Refusal{.code = wire::CloseCode::too_many_rooms, .expected = {}};
     }
     spdlog::info("room_opened room={} scene={}", name, served->name);
-    auto room = std::make_shared<Room>(name, std::move(served), first_environment_,
-                                       environments_, threads_, metrics_, options_.room);
+    const std::shared_ptr<Environment> first = environments_.find(options_.environment);
+    auto room =
+        std::make_shared<Room>(name, std::move(served), first ? first : first_environment_,
+                               environments_, threads_, metrics_, options_.room);
     rooms_.emplace(name, Entry{.room = room, .creator = address, .place = std::move(place)});
     metrics_.set_rooms(rooms_.size());
     return room;

@@ -101,6 +101,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     const RoomThreads threads_;
     Metrics& metrics_;
     const RoomsOptions options_;
+    // Used when the library has lost it.
     const std::shared_ptr<Environment> first_environment_;
 
     mutable std::mutex mutex_;

@@ -42,31 +42,6 @@ TEST(EnvironmentLibrary, OffersTheProceduralOnesWithTheirSizes) {
     EXPECT_EQ(library.find(name)->description().height, map.height());
 }
 
-TEST(EnvironmentLibrary, TakesWhatCanBeUsedOfAFolder) {
-    const test::ScratchDirectory scratch;
-    write_hdr(scratch.path() / "good.hdr", 16, 8, 0.5F);
-    write_hdr(scratch.path() / "odd-shape.hdr", 17, 5, 1);
-    write_hdr(scratch.path() / "bad name.hdr", 16, 8, 1);
-    std::ofstream(scratch.path() / "broken.exr") << "this is no image";
-    std::ofstream(scratch.path() / "notes.txt") << "nor is this";
-    EnvironmentLibrary library({});
-    library.add_folder(scratch.path());
-    EXPECT_EQ(names(library, EnvironmentKind::file), std::vector<std::string>{"good"});
-    const auto good = library.find("good")->prefiltered(4);
-    EXPECT_NEAR(good->source().radiance({0, 0, -1}).x, 0.5F, 0.01F);
-}
-
-TEST(EnvironmentLibrary, AFileThatFailsLaterFailsByName) {
-    const test::ScratchDirectory scratch;
-    write_hdr(scratch.path() / "short.hdr", 64, 32, 0.5F);
-    EnvironmentLibrary library({});
-    library.add_folder(scratch.path());
-    std::filesystem::resize_file(scratch.path() / "short.hdr", 200);
-    const auto environment = library.find("short");
-    EXPECT_THROW(static_cast<void>(environment->prefiltered(4)), light::EnvironmentError);
-    EXPECT_THROW(static_cast<void>(environment->preview_jpeg()), light::EnvironmentError);
-}
-
 TEST(EnvironmentLibrary, PreviewIsAJpeg) {
     EnvironmentLibrary library({});
     library.add_upload("grey", constant_map(0.5F));

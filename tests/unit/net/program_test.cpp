@@ -184,6 +184,42 @@ TEST_F(ProgramTest, HangUpLooksForScenes) {
     EXPECT_EQ(server.wait(), 0);
 }
 
+TEST_F(ProgramTest, HangUpLooksForEnvironments) {
+    std::vector<std::string> all = flags();
+    all.insert(all.end(), {"--scenes-interval-ms", "0"});
+    Process server(all, log());
+    const std::uint16_t port = wait_until_ready();
+    const auto listed = [port] { return http(port, "GET", "/api/environments").body; };
+    EXPECT_EQ(listed().find("\"late\""), std::string::npos);
+    write_hdr(environments_.path() / "late.hdr", 16, 8, 1);
+    server.signal(SIGHUP);
+    EXPECT_TRUE(eventually([&] { return listed().find("\"late\"") != std::string::npos; }));
+    fs::remove(environments_.path() / "late.hdr");
+    server.signal(SIGHUP);
+    EXPECT_TRUE(eventually([&] { return listed().find("\"late\"") == std::string::npos; }));
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+}
+
+// A thousand scenes, to be opened one after another.
+TEST_F(ProgramTest, TheEndDoesNotWaitForScenesThatAreBeingOpened) {
+    const fs::path many = environments_.path() / "many";
+    fs::create_directory(many);
+    for (int i = 0; i < 1000; ++i) {
+        fs::create_directory_symlink(scenes_.path() / "tiny.relume",
+                                     many / (std::to_string(i) + ".relume"));
+    }
+    std::vector<std::string> all = flags();
+    all[1] = many.string();
+    Process server(all, log());
+    EXPECT_TRUE(eventually([&] { return fs::exists(port_file()); }));
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+    const std::string lines = text_of(log());
+    EXPECT_NE(lines.find("event=drained"), std::string::npos) << lines;
+    EXPECT_EQ(lines.find("event=ready"), std::string::npos) << "it has opened them all";
+}
+
 TEST_F(ProgramTest, AnAddressInUseIsNamed) {
     Process server(flags(), log());
     const std::string port = std::to_string(wait_until_ready());
