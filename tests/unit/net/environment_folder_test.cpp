@@ -58,6 +58,14 @@ TEST(EnvironmentFolder, AFileThatFailsLaterFailsByName) {
     EXPECT_THROW(static_cast<void>(environment->preview_jpeg()), light::EnvironmentError);
 }
 
+// As a careful program does: whole, or not at all.
+void write_whole(const fs::path& file, float radiance) {
+    const fs::path aside = file.parent_path() / "aside" / "map.hdr";
+    fs::create_directories(aside.parent_path());
+    write_hdr(aside, 16, 8, radiance);
+    fs::rename(aside, file);
+}
+
 class ChangingFolder : public testing::Test {
   protected:
     ChangingFolder() {
@@ -66,9 +74,7 @@ class ChangingFolder : public testing::Test {
         version_ = version();
     }
     void write(float radiance, const char* file) const {
-        // As a careful program does: whole, or not at all.
-        write_hdr(scratch_.path() / "next.tmp.hdr.part", 16, 8, radiance);
-        fs::rename(scratch_.path() / "next.tmp.hdr.part", scratch_.path() / file);
+        write_whole(scratch_.path() / file, radiance);
     }
     [[nodiscard]] std::uint64_t version(const char* name = "map") const {
         return library_.find(name)->description().version;
@@ -174,8 +180,7 @@ TEST_F(EnvironmentFolderInARoom, ARoomIsRelitByTheFileThatReplacesItsMap) {
     viewer.edit({{"environment", {{"name", "day"}}}});
     const SharedImageFrame before = settled_image(viewer, 1);
     ASSERT_TRUE(before);
-    write_hdr(scratch.path() / "day.tmp", 16, 8, 2);
-    fs::rename(scratch.path() / "day.tmp", scratch.path() / "day.hdr");
+    write_whole(scratch.path() / "day.hdr", 2);
     folder.refresh();
     const SharedImageFrame after = settled_image(viewer, 2);
     ASSERT_TRUE(after);
