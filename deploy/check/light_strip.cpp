@@ -62,7 +62,7 @@ light::LightRig rig_from(const wire::RoomState& state, const Arguments& argument
         rig.blend = find_environment(arguments, *state.blend.name);
         rig.blend_amount = static_cast<float>(state.blend.amount);
     }
-    rig.rotation = Imath::Quatf(state.rotation);
+    rig.rotation = Imath::Quatf(state.rotation.quaternion);
     rig.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
     for (const auto& [id, area] : state.lights) {
         rig.lights.push_back({.direction = Imath::V3f(area.direction),

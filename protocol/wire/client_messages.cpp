@@ -1,8 +1,7 @@
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/object_reader.h"
-#include "protocol/wire/patch_section.h"
-#include "protocol/wire/room_names.h"
+#include "protocol/wire/sections/field_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,20 +24,25 @@ Edit edit_from_json(ObjectReader& reader, json& message) {
     return {.id = id, .patch = std::move(message["patch"])};
 }
 
+// What the message states for a field of `display`; null says no more than leaving it out.
+template <typename Type>
+std::optional<Type> stated(ObjectReader& reader,
+                           const Field<Display>& field,
+                           Type Display::*member) {
+    const json* const value = reader.find(field.rule.key);
+    if (value == nullptr || value->is_null()) {
+        return std::nullopt;
+    }
+    Display display;
+    field.set(display,
+              value_from_json(field.rule, *value, reader.path_to(field.rule.key), Limits{}));
+    return display.*member;
+}
+
 DisplayChoice display_choice_from_json(ObjectReader& reader) {
-    DisplayChoice choice;
-    const json* const stops = reader.find("exposure_stops");
-    if (stops != nullptr && !stops->is_null()) {
-        choice.exposure_stops = number_from_json(*stops, "/exposure_stops", kExposureStops);
-    }
-    const json* const tone = reader.find("tone");
-    if (tone != nullptr && !tone->is_null()) {
-        choice.tone = kToneNames.value(string_from_json(*tone, "/tone"));
-        if (!choice.tone) {
-            throw WireError(ErrorCode::out_of_range, "/tone", quote(*tone),
-                            kToneNames.alternatives());
-        }
-    }
+    const DisplayChoice choice{
+        .exposure_stops = stated(reader, kExposureStopsField, &Display::exposure_stops),
+        .tone = stated(reader, kToneField, &Display::tone)};
     reader.refuse_other_keys();
     return choice;
 }
@@ -84,7 +88,7 @@ std::string text_from_message(const DisplayChoice& message) {
         text["exposure_stops"] = *message.exposure_stops;
     }
     if (message.tone) {
-        text["tone"] = name_from(*message.tone);
+        text["tone"] = kToneNames.name(*message.tone);
     }
     return text.dump();
 }

@@ -1,6 +1,8 @@
 // Reading values out of JSON that a peer sent: every fault is a WireError with its path.
 #pragma once
 
+#include "protocol/wire/range.h"
+
 #include <Imath/ImathVec.h>
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,11 +12,6 @@
 #include <vector>
 
 namespace relume::wire {
-
-struct Range {
-    double lowest;
-    double highest;
-};
 
 // Each throws WireError{wrong_type} or {out_of_range} at `path`.
 [[nodiscard]] double number_from_json(const nlohmann::json& value,

@@ -1,6 +1,7 @@
 #include "protocol/wire/stages.h"
 
 #include "protocol/base/text/name_table.h"
+#include "protocol/wire/sections/room_sections.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,17 +15,6 @@ constexpr text::NameTable<Stage, 4> kStageNames({{
     {Stage::policy, "policy"},
 }});
 
-struct SectionStage {
-    std::string_view section;
-    Stage stage;
-};
-
-constexpr SectionStage kSectionStages[] = {
-    {"environment", Stage::signal}, {"blend", Stage::signal},    {"rotation", Stage::signal},
-    {"lights", Stage::signal},      {"background", Stage::view}, {"strategy", Stage::policy},
-    {"budget", Stage::policy},      {"display", Stage::display},
-};
-
 }  // namespace
 
 std::string_view name_from(Stage stage) {
@@ -33,11 +23,11 @@ std::string_view name_from(Stage stage) {
 
 Stages stages_of(const nlohmann::json& patch) {
     Stages stages;
-    for (const auto& [section, stage] : kSectionStages) {
-        if (patch.contains(section)) {
-            stages |= stage;
+    for_each_section([&](const auto& section, auto) {
+        if (patch.contains(fields_of(section).key)) {
+            stages |= fields_of(section).stage;
         }
-    }
+    });
     return stages;
 }
 

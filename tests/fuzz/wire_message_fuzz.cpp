@@ -22,9 +22,9 @@ void check_edit(const wire::Edit& edit) {
     const wire::Limits limits;
     const wire::RoomState before;
     wire::RoomState state;
-    nlohmann::json normalised;
+    wire::AppliedPatch applied;
     try {
-        normalised = wire::apply_patch(state, edit.patch, limits);
+        applied = wire::apply_patch(state, edit.patch, limits);
     } catch (const wire::WireError& error) {
         require(state == before);
         require(!error.found().empty() && !error.expected().empty());
@@ -32,10 +32,12 @@ void check_edit(const wire::Edit& edit) {
         return;
     }
     nlohmann::json merged = wire::to_json(before);
-    merged.merge_patch(normalised);
+    merged.merge_patch(applied.patch);
     require(merged == wire::to_json(state));
     require(wire::room_state_from_json(nlohmann::json::parse(merged.dump())) == state);
-    require(wire::apply_patch(state, normalised, limits) == normalised);
+    require(wire::apply_patch(state, applied.patch, limits).patch == applied.patch);
+    require(wire::apply_patch(state, applied.inverse, limits).patch == applied.inverse);
+    require(state == before);
 }
 
 }  // namespace

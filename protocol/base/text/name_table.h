@@ -33,6 +33,13 @@ class NameTable {
         }
         return std::nullopt;
     }
+    [[nodiscard]] constexpr std::array<std::string_view, Count> words() const {
+        std::array<std::string_view, Count> words;
+        for (std::size_t i = 0; i < Count; ++i) {
+            words[i] = entries_[i].second;
+        }
+        return words;
+    }
     // "one of a, b, c", for error messages.
     [[nodiscard]] std::string alternatives() const {
         std::string text = "one of ";

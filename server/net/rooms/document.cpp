@@ -17,7 +17,7 @@ DocumentChange Document::edit(ViewerId author,
                               const EnvironmentLibrary& library) {
     wire::RoomState next = state_;
     DocumentChange change{.revision = revision_ + 1,
-                          .patch = wire::apply_patch(next, edit.patch, limits),
+                          .patch = wire::apply_patch(next, edit.patch, limits).patch,
                           .author = author,
                           .edit_id = edit.id,
                           .stages = {}};

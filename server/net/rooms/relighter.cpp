@@ -53,9 +53,9 @@ light::LightRig rig_from_state(const wire::RoomState& state,
         prefiltered(environments.environment, face_resolution, "/environment/name", problems);
     rig.blend = prefiltered(environments.blend, face_resolution, "/blend/name", problems);
     rig.blend_amount = environments.blend ? static_cast<float>(state.blend.amount) : 0.0F;
-    rig.rotation = Imath::Quatf(state.rotation);
+    rig.rotation = Imath::Quatf(state.rotation.quaternion);
     rig.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
-    const bool solo = wire::any_solo(state);
+    const bool solo = wire::any_solo(state.lights);
     if (solo) {
         rig.environment = nullptr;
         rig.blend = nullptr;

@@ -1,6 +1,6 @@
 #include "protocol/wire/display.h"
 
-#include "protocol/wire/room_names.h"
+#include "protocol/wire/sections/display.h"
 #include "tests/unit/wire/vectors.h"
 
 #include <gtest/gtest.h>

@@ -119,7 +119,7 @@ Snapshot busy_snapshot() {
     snapshot.limits.rooms = 3;
     snapshot.state.environment = {.name = "city", .gain = 0.1, .tint = {0.3, 0.2, 0.1}};
     snapshot.state.blend = {.name = "night", .amount = 0.7};
-    snapshot.state.rotation = quaternion_from_yaw_pitch_roll_degrees(30, 20, 10);
+    snapshot.state.rotation.quaternion = quaternion_from_yaw_pitch_roll_degrees(30, 20, 10);
     snapshot.state.lights["key"] = {.direction = {0.6, 0, 0.8},
                                     .angular_radius_degrees = 3.3,
                                     .radiance = {1e8, 0, 0.1},
@@ -148,11 +148,6 @@ TEST(ServerMessages, ASnapshotMustBeWholeAndOfThisVersion) {
          {"protocol", "room", "scene", "revision", "state", "viewers", "limits"}) {
         json bad = good;
         bad.erase(key);
-        EXPECT_EQ(server_refusal_of(bad).code(), ErrorCode::missing_field) << key;
-    }
-    for (const auto& [key, section] : good.at("state").items()) {
-        json bad = good;
-        bad["state"].erase(key);
         EXPECT_EQ(server_refusal_of(bad).code(), ErrorCode::missing_field) << key;
     }
     json newer = good;

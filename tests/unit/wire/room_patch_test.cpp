@@ -50,7 +50,7 @@ TEST(RoomPatch, SharedCases) {
             EXPECT_FALSE(error.expected().empty());
             EXPECT_EQ(state, before);
         } else {
-            const json normalised = apply_patch(state, c.at("patch"), Limits{});
+            const json normalised = apply_patch(state, c.at("patch"), Limits{}).patch;
             EXPECT_TRUE(nearly_equal(normalised, c.at("normalised"))) << normalised;
             EXPECT_TRUE(nearly_equal(to_json(state), c.at("result"))) << to_json(state);
         }
@@ -104,10 +104,56 @@ TEST(RoomPatch, AnglesTurnTheWayTheContractSays) {
     RoomState state;
     // Yaw +90° about +Y takes the source's −Z (its centre) to −X; then pitch acts before yaw.
     apply_patch(state, {{"rotation", {{"yaw_degrees", 90}}}}, Limits{});
-    EXPECT_TRUE(state.rotation.rotateVector({0, 0, -1}).equalWithAbsError({-1, 0, 0}, 1e-12));
+    EXPECT_TRUE(state.rotation.quaternion.rotateVector({0, 0, -1})
+                    .equalWithAbsError({-1, 0, 0}, 1e-12));
     apply_patch(state, {{"rotation", {{"yaw_degrees", 90}, {"pitch_degrees", 90}}}}, Limits{});
-    EXPECT_TRUE(state.rotation.rotateVector({0, 0, -1}).equalWithAbsError({0, 1, 0}, 1e-12));
-    EXPECT_TRUE(state.rotation.rotateVector({0, 1, 0}).equalWithAbsError({1, 0, 0}, 1e-12));
+    EXPECT_TRUE(
+        state.rotation.quaternion.rotateVector({0, 0, -1}).equalWithAbsError({0, 1, 0}, 1e-12));
+    EXPECT_TRUE(
+        state.rotation.quaternion.rotateVector({0, 1, 0}).equalWithAbsError({1, 0, 0}, 1e-12));
+}
+
+TEST(RoomPatch, AnInverseIsTheOldValuesOfWhatThePatchNames) {
+    RoomState state;
+    const json light = {
+        {"direction", {0, 1, 0}}, {"angular_radius_degrees", 5}, {"radiance", {1, 1, 1}}};
+    const auto inverse = [&](const json& patch) {
+        return apply_patch(state, patch, Limits{}).inverse;
+    };
+    EXPECT_EQ(inverse({{"lights", {{"key", light}}}}), json({{"lights", {{"key", nullptr}}}}));
+    EXPECT_EQ(inverse({{"lights", {{"key", {{"gain", 3}, {"name", "Window"}}}}}}),
+              json({{"lights", {{"key", {{"gain", 1}, {"name", nullptr}}}}}}));
+    EXPECT_EQ(inverse({{"budget", {{"coefficients", 30}}}}),
+              json({{"budget", {{"milliseconds", 8}, {"coefficients", nullptr}}}}));
+    EXPECT_EQ(inverse({{"rotation", {{"yaw_degrees", 90}}}}),
+              json({{"rotation", {{"quaternion", {1, 0, 0, 0}}}}}));
+    // A light comes back whole, and what names no difference takes none back.
+    EXPECT_EQ(inverse({{"lights", {{"key", nullptr}, {"fill", nullptr}}}}),
+              json({{"lights",
+                     {{"key",
+                       {{"direction", {0, 1, 0}},
+                        {"angular_radius_degrees", 5},
+                        {"radiance", {1, 1, 1}},
+                        {"gain", 3},
+                        {"tint", {1, 1, 1}},
+                        {"name", "Window"},
+                        {"muted", false},
+                        {"solo", false},
+                        {"order", 0}}}}}}));
+    EXPECT_EQ(inverse({{"display", json::object()}}), json::object());
+}
+
+TEST(RoomPatch, AStoredStateThatLacksSectionsHasTheirDefaults) {
+    const RoomState stored = room_state_from_json({{"environment", {{"name", "city"}}}});
+    RoomState expected;
+    expected.environment.name = "city";
+    EXPECT_EQ(stored, expected);
+    EXPECT_EQ(room_state_from_json(json::object()), RoomState{});
+    const WireError error = wire_error_of([] {
+        return room_state_from_json({{"atmosphere", json::object()}});
+    });
+    EXPECT_EQ(error.code(), ErrorCode::unknown_field);
+    EXPECT_EQ(error.path(), "/atmosphere");
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
-/** The state of a room as protocol/README.md §3.1 defines it. Angles are degrees. */
+/**
+ * The state of a room as protocol/README.md §3.1 defines it. Angles are degrees.
+ *
+ * Written by describe_state out of protocol/wire/sections; a test compares.
+ */
 
 export type Triple = [number, number, number];
 /** w, x, y, z; unit length; world direction = R · source direction. */
@@ -7,51 +11,153 @@ export type Quaternion = [number, number, number, number];
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type JsonObject = { [key: string]: Json };
 
-export interface SourceState {
-    name: string;
-    gain: number;
-    tint: Triple;
-}
-
-export interface AreaLight {
-    /** Towards the light, in the world. */
-    direction: Triple;
-    angular_radius_degrees: number;
-    /** Linear Rec. 709. */
-    radiance: Triple;
-    gain: number;
-    tint: Triple;
-    /** What people call it; without one it is called by its id. */
-    name?: string | null;
-    muted: boolean;
-    /** While any light is solo, only solo lights light. */
-    solo: boolean;
-    /** Lists show lights in ascending order, equals by id. */
-    order: number;
+export interface Range {
+    lowest: number;
+    highest: number;
 }
 
 export type BackgroundMode = "environment" | "colour" | "transparent";
-export type Method = "nwa" | "bi" | "pbi" | "guarded";
-export type Priority = "area" | "none" | "transport" | "benefit";
-export type Tone = "filmic" | "linear";
+export type StrategyMethod = "nwa" | "bi" | "pbi" | "guarded";
+export type StrategyPriority = "area" | "none" | "transport" | "benefit";
+export type DisplayTone = "filmic" | "linear";
 
+/** The map that lights the scene. */
+export interface EnvironmentState {
+    /** The map, by its name in `/api/environments`. */
+    name: string;
+    /** Times the map's radiance. */
+    gain: number;
+    /** Times the map's radiance, by colour. */
+    tint: Triple;
+}
+
+/** A second map, mixed with the first. */
+export interface BlendState {
+    /** The second map; without one there is none to mix. */
+    name?: string | null;
+    /** Radiance is `(1−amount)·environment + amount·blend`, gain and tint on both. */
+    amount: number;
+}
+
+/** How environment and blend are turned. */
+export interface RotationState {
+    /** R; world direction = R · source direction; lights are not turned. */
+    quaternion: Quaternion;
+}
+
+/** Round lights at infinity, by ID. */
+export interface AreaLight {
+    /** Towards the light, in the world. */
+    direction: Triple;
+    /** Half the angle that the disc spans. */
+    angular_radius_degrees: number;
+    /** Of the whole disc, linear Rec. 709. */
+    radiance: Triple;
+    /** Times the radiance. */
+    gain: number;
+    /** Times the radiance, by colour. */
+    tint: Triple;
+    /** What people call the light; without one it is called by its ID. */
+    name?: string | null;
+    /** It does not light. */
+    muted: boolean;
+    /** While any light is solo, only solo lights light. */
+    solo: boolean;
+    /** Lists show lights in ascending order; a new light without one comes last. */
+    order: number;
+}
+
+/** What shows behind the scene. */
+export interface BackgroundState {
+    /** What it is: §3.2. */
+    mode: BackgroundMode;
+    /** Linear, in mode `colour`. */
+    colour: Triple;
+}
+
+/** How changed coefficients reach the image. */
+export interface StrategyState {
+    /** What becomes of the approximation when the light changes. */
+    method: StrategyMethod;
+    /** What a coefficient's change is weighted with to rank it. */
+    priority: StrategyPriority;
+}
+
+/** What one image may take. */
+export interface BudgetState {
+    /** Of an image from edit to encoded picture: relighting gets what is left of them. */
+    milliseconds?: number | null;
+    /** Applied for an image. */
+    coefficients?: number | null;
+    /** Relative L2 at which an image has settled; 0 asks for exact. */
+    target_error: number;
+}
+
+/** How pictures are developed for who has chosen nothing else. */
 export interface DisplayState {
+    /** Light is multiplied by 2 to the power of it. */
     exposure_stops: number;
-    tone: Tone;
+    /** The tone curve: §3.2. */
+    tone: DisplayTone;
 }
 
 export interface RoomState {
-    environment: SourceState;
-    blend: { name?: string | null; amount: number };
-    rotation: { quaternion: Quaternion };
+    environment: EnvironmentState;
+    blend: BlendState;
+    rotation: RotationState;
     lights: { [id: string]: AreaLight };
-    background: { mode: BackgroundMode; colour: Triple };
-    strategy: { method: Method; priority: Priority };
-    /** Holds milliseconds or coefficients, never both. */
-    budget: {
-        milliseconds?: number | null;
-        coefficients?: number | null;
-        target_error: number;
-    };
+    background: BackgroundState;
+    strategy: StrategyState;
+    budget: BudgetState;
     display: DisplayState;
 }
+
+/** What an edit makes a server do again. */
+export type Stage = "signal" | "view" | "display" | "policy";
+
+export const kStages: { readonly [section in keyof RoomState]: Stage } = {
+    environment: "signal",
+    blend: "signal",
+    rotation: "signal",
+    lights: "signal",
+    background: "view",
+    strategy: "policy",
+    budget: "policy",
+    display: "display",
+};
+
+/** Fields that a state may lack; null in a patch takes them away. */
+export const kAbsent: { readonly [section in keyof RoomState]?: readonly string[] } = {
+    blend: ["name"],
+    lights: ["name"],
+    budget: ["milliseconds", "coefficients"],
+};
+
+/** Of numbers, and of each number of a triple. */
+export const kRanges = {
+    environment: {
+        gain: { lowest: 0, highest: 1e6 },
+        tint: { lowest: 0, highest: 1e4 },
+    },
+    blend: {
+        amount: { lowest: 0, highest: 1 },
+    },
+    lights: {
+        angular_radius_degrees: { lowest: 0.05, highest: 90 },
+        radiance: { lowest: 0, highest: 1e8 },
+        gain: { lowest: 0, highest: 1e6 },
+        tint: { lowest: 0, highest: 1e4 },
+        order: { lowest: -1e9, highest: 1e9 },
+    },
+    background: {
+        colour: { lowest: 0, highest: 1e4 },
+    },
+    budget: {
+        milliseconds: { lowest: 0.1, highest: 1000 },
+        coefficients: { lowest: 1, highest: 393216 },
+        target_error: { lowest: 0, highest: 1 },
+    },
+    display: {
+        exposure_stops: { lowest: -20, highest: 20 },
+    },
+} as const satisfies { [section: string]: { [field: string]: Range } };

@@ -1,0 +1,186 @@
+// One field of a section of the room's state, described once: how it is read out of the struct
+// that holds it and put there, what JSON it takes, and what it means.
+//
+// Descriptions are constants. What reads and writes JSON by them is field_json.h; what writes
+// the contract's table and the page's types is described.h.
+#pragma once
+
+#include "protocol/base/text/name_table.h"
+#include "protocol/wire/limits.h"
+#include "protocol/wire/range.h"
+
+#include <Imath/ImathQuat.h>
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace relume::wire {
+
+enum class FieldKind : std::uint8_t {
+    number,
+    integer,
+    flag,
+    triple,      // three numbers, each in the range
+    direction,   // three numbers, not all zero; normalised
+    quaternion,  // w, x, y, z, not all zero; normalised
+    name,        // as names.h allows
+    label,       // as names.h allows
+    word         // one of some
+};
+
+// When a state has the field.
+enum class Presence : std::uint8_t {
+    always,
+    optional,  // null takes it away, and a state without it has no such key
+    one_of  // exactly one of the section's fields marked so; setting one takes the others away
+};
+
+struct FieldRule {
+    std::string_view key;
+    FieldKind kind;
+    std::string_view meaning;  // a line for people, with no full stop at its end
+    Range range{};             // of number, integer and triple
+    std::span<const std::string_view> words{};
+    Presence presence = Presence::always;
+    bool is_needed = false;  // a new entry of a keyed section has to state it
+    // Where a limit in force bounds an integer below its range.
+    std::uint64_t Limits::*limit = nullptr;
+};
+
+// Nothing, or the one alternative that the field's kind says: double, uint32, bool, V3d (triple
+// and direction), Quatd, string (name, label, word).
+using FieldValue = std::
+    variant<std::monostate, bool, double, std::uint32_t, Imath::V3d, Imath::Quatd, std::string>;
+
+template <typename Owner>
+struct Field {
+    FieldRule rule;
+    FieldValue (*get)(const Owner&);
+    // Takes what `rule` allows.
+    void (*set)(Owner&, const FieldValue&);
+
+    [[nodiscard]] constexpr Field needed() const {
+        Field field = *this;
+        field.rule.is_needed = true;
+        return field;
+    }
+    [[nodiscard]] constexpr Field one_of() const {
+        Field field = *this;
+        field.rule.presence = Presence::one_of;
+        return field;
+    }
+    [[nodiscard]] constexpr Field limited_by(std::uint64_t Limits::*limit) const {
+        Field field = *this;
+        field.rule.limit = limit;
+        return field;
+    }
+};
+
+// Makers of fields: number<&Environment::gain>("gain", kGain, "…").
+namespace field {
+
+template <typename Member>
+struct MemberOf;
+template <typename Owner_, typename Type_>
+struct MemberOf<Type_ Owner_::*> {
+    using Owner = Owner_;
+    using Type = Type_;
+};
+template <auto kMember>
+using OwnerOf = typename MemberOf<decltype(kMember)>::Owner;
+template <auto kMember>
+using TypeOf = typename MemberOf<decltype(kMember)>::Type;
+
+template <typename Type>
+inline constexpr bool kIsOptional = false;
+template <typename Type>
+inline constexpr bool kIsOptional<std::optional<Type>> = true;
+
+template <auto kMember>
+constexpr Field<OwnerOf<kMember>> of(FieldRule rule) {
+    using Owner = OwnerOf<kMember>;
+    using Type = TypeOf<kMember>;
+    if constexpr (kIsOptional<Type>) {
+        rule.presence = Presence::optional;
+        return {rule,
+                [](const Owner& owner) {
+                    const Type& value = owner.*kMember;
+                    return value ? FieldValue(*value) : FieldValue();
+                },
+                [](Owner& owner, const FieldValue& value) {
+                    if (std::holds_alternative<std::monostate>(value)) {
+                        (owner.*kMember).reset();
+                    } else {
+                        owner.*kMember = std::get<typename Type::value_type>(value);
+                    }
+                }};
+    } else {
+        return {rule, [](const Owner& owner) { return FieldValue(owner.*kMember); },
+                [](Owner& owner, const FieldValue& value) {
+                    owner.*kMember = std::get<Type>(value);
+                }};
+    }
+}
+
+template <auto kMember>
+constexpr auto number(std::string_view key, Range range, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::number, meaning, range});
+}
+template <auto kMember>
+constexpr auto integer(std::string_view key, Range range, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::integer, meaning, range});
+}
+template <auto kMember>
+constexpr auto flag(std::string_view key, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::flag, meaning});
+}
+template <auto kMember>
+constexpr auto triple(std::string_view key, Range range, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::triple, meaning, range});
+}
+template <auto kMember>
+constexpr auto direction(std::string_view key, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::direction, meaning});
+}
+template <auto kMember>
+constexpr auto quaternion(std::string_view key, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::quaternion, meaning});
+}
+template <auto kMember>
+constexpr auto name(std::string_view key, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::name, meaning});
+}
+template <auto kMember>
+constexpr auto label(std::string_view key, std::string_view meaning) {
+    return of<kMember>({key, FieldKind::label, meaning});
+}
+
+template <const auto& kNames>
+inline constexpr auto kWords = kNames.words();
+
+template <auto kMember, const auto& kNames>
+constexpr Field<OwnerOf<kMember>> word(std::string_view key, std::string_view meaning) {
+    using Owner = OwnerOf<kMember>;
+    FieldRule rule{key, FieldKind::word, meaning};
+    rule.words = kWords<kNames>;
+    return {
+        rule,
+        [](const Owner& owner) { return FieldValue(std::string(kNames.name(owner.*kMember))); },
+        [](Owner& owner, const FieldValue& value) {
+            owner.*kMember = kNames.value(std::get<std::string>(value)).value();
+        }};
+}
+
+}  // namespace field
+
+inline constexpr Range kGain{0, 1e6};
+inline constexpr Range kColour{0, 1e4};
+
+}  // namespace relume::wire
