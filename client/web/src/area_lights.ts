@@ -1,9 +1,10 @@
 /** Edits of the room's round area lights, and which of them is selected on this page. */
-import { kLargestRadiusDegrees, kSmallestRadiusDegrees, radianceAtRadius } from "./light_level";
+import { radianceAtRadius } from "./light_level";
 import { newLight, nextOrder, type Picture } from "./new_light";
 import type { Session } from "./session";
 import { Signal } from "./signal";
-import type { AreaLight, JsonObject, RoomState, Triple } from "./wire/state";
+import { clampTo } from "./wire/range";
+import { type AreaLight, type JsonObject, kRanges, type RoomState, type Triple } from "./wire/state";
 
 const kMostNameCharacters = 64;
 const kCopyTurnDegrees = 15;
@@ -139,10 +140,7 @@ export class AreaLights {
     setRadius(id: string, degrees: number): void {
         const light = this.all[id];
         if (light === undefined) return;
-        const radius = Math.min(
-            kLargestRadiusDegrees,
-            Math.max(kSmallestRadiusDegrees, degrees),
-        );
+        const radius = clampTo(kRanges.lights.angular_radius_degrees, degrees);
         this.change(id, {
             angular_radius_degrees: radius,
             ...(this.keepsPower ? { radiance: radianceAtRadius(light, radius) } : {}),

@@ -3,17 +3,10 @@
  * sRGB transfer curve. image_shader.ts says the same in GLSL; a test holds the two together.
  */
 import { floatFromHalf } from "./wire/half_float";
-import type { DisplayState, Tone } from "./wire/state";
-
-export const kMinExposureStops = -20;
-export const kMaxExposureStops = 20;
+import type { DisplayState, DisplayTone } from "./wire/state";
 
 export function sameDisplay(a: DisplayState, b: DisplayState): boolean {
     return a.exposure_stops === b.exposure_stops && a.tone === b.tone;
-}
-
-export function clampExposure(stops: number): number {
-    return Math.min(kMaxExposureStops, Math.max(kMinExposureStops, stops));
 }
 
 function clampToUnit(value: number): number {
@@ -45,7 +38,7 @@ export function displayFromLinear(linear: number, display: DisplayState): number
 export class DisplayTable {
     readonly codes = new Uint8Array(65536);
     private exposureStops = NaN;
-    private tone: Tone | null = null;
+    private tone: DisplayTone | null = null;
 
     update(display: DisplayState): void {
         if (display.exposure_stops === this.exposureStops && display.tone === this.tone) return;

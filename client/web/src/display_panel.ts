@@ -7,7 +7,7 @@ import { understandKelvin } from "./kelvin";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
-import type { BackgroundMode, JsonObject, RoomState, Tone } from "./wire/state";
+import type { BackgroundMode, DisplayTone, JsonObject, RoomState } from "./wire/state";
 
 /** The slider's; any value the server takes can be typed. */
 const kUsualStops = 8;
@@ -15,7 +15,7 @@ const kUsualStops = 8;
 export class DisplayPanel {
     private readonly model = {
         exposure: 0,
-        tone: "filmic" as Tone,
+        tone: "filmic" as DisplayTone,
         background: "environment" as BackgroundMode,
         colour: "#000000",
     };

@@ -4,11 +4,12 @@
  * when the hand rests or before an edit leaves; while JPEGs show, which come developed, it hears
  * at once.
  */
-import { clampExposure, sameDisplay } from "./display";
+import { sameDisplay } from "./display";
 import type { ImageView } from "./image_view";
 import type { Session } from "./session";
 import { Signal } from "./signal";
-import type { DisplayState } from "./wire/state";
+import { clampTo } from "./wire/range";
+import { type DisplayState, kRanges } from "./wire/state";
 
 const kRestMilliseconds = 180;
 
@@ -46,7 +47,10 @@ export class Exposure {
     /** For this viewer alone. */
     set(change: Partial<DisplayState>): void {
         const display = { ...this.display, ...change };
-        display.exposure_stops = clampExposure(display.exposure_stops);
+        display.exposure_stops = clampTo(
+            kRanges.display.exposure_stops,
+            display.exposure_stops,
+        );
         this.choose(display);
     }
 

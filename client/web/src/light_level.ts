@@ -3,12 +3,9 @@
  * scene. In stops, 0 EV lights a white matte surface that faces a small light to radiance 1.
  */
 import { brightnessFromLinear, type HexColour, linearFromBrightness } from "./colour";
-import type { AreaLight, Triple } from "./wire/state";
+import { type AreaLight, kRanges, type Triple } from "./wire/state";
 
-/** The server takes radiance up to this. */
-export const kLargestRadiance = 1e8;
-export const kSmallestRadiusDegrees = 0.05;
-export const kLargestRadiusDegrees = 90;
+const kLargestRadiance = kRanges.lights.radiance.highest;
 
 /** 2π(1 − cos r), written so that small angles keep their digits. */
 export function solidAngleSr(angularRadiusDegrees: number): number {

@@ -3,19 +3,20 @@
  * which is what `relume render --patch @FILE` takes.
  */
 import { isObject } from "./wire/merge_patch";
-import type { DisplayState, Json, JsonObject, RoomState } from "./wire/state";
-
-export const kLightingSections = [
-    "environment",
-    "blend",
-    "rotation",
-    "lights",
-    "background",
-    "display",
-] as const;
+import {
+    type DisplayState,
+    type Json,
+    type JsonObject,
+    kAbsent,
+    kStages,
+    type RoomState,
+} from "./wire/state";
 
 /** A file may say how to relight as well. */
-const kSections = [...kLightingSections, "strategy", "budget"] as const;
+const kSections = Object.keys(kStages) as (keyof RoomState)[];
+
+/** What is artistic: all but how images are worked out. */
+const kLightingSections = kSections.filter((key) => kStages[key] !== "policy");
 
 export type Lighting = Partial<RoomState>;
 
@@ -33,8 +34,8 @@ export class LightingError extends Error {
 
 /** With the display that its viewer sees. */
 export function lightingOf(state: RoomState, display: DisplayState): Lighting {
-    const { environment, blend, rotation, lights, background } = state;
-    return { environment, blend, rotation, lights, background, display };
+    const sections = kLightingSections.map((key) => [key, state[key]]);
+    return { ...Object.fromEntries(sections), display } as Lighting;
 }
 
 export function textFromLighting(lighting: Lighting): string {
@@ -89,31 +90,20 @@ export function lightingFromText(text: string): Lighting {
  */
 export function patchToLighting(from: RoomState, to: Lighting): JsonObject {
     const patch: JsonObject = {};
-    for (const key of [
-        "environment",
-        "rotation",
-        "background",
-        "strategy",
-        "display",
-    ] as const) {
-        if (to[key] !== undefined) patch[key] = to[key] as unknown as JsonObject;
-    }
-    if (to.blend !== undefined) {
-        patch["blend"] = { amount: to.blend.amount ?? 0, name: to.blend.name ?? null };
-    }
-    if (to.budget !== undefined) {
-        const { milliseconds = null, coefficients = null, target_error = 0 } = to.budget;
-        patch["budget"] = { milliseconds, coefficients, target_error };
-    }
-    if (to.lights !== undefined) {
-        const lights: JsonObject = {};
-        for (const id of Object.keys(from.lights)) {
-            if (!(id in to.lights)) lights[id] = null;
+    for (const key of kSections) {
+        const section = to[key] as JsonObject | undefined;
+        if (section === undefined) continue;
+        const absent = Object.fromEntries((kAbsent[key] ?? []).map((field) => [field, null]));
+        if (key === "lights") {
+            const gone = Object.keys(from.lights).filter((id) => !(id in section));
+            const there = Object.entries(section as { [id: string]: JsonObject });
+            patch[key] = Object.fromEntries<Json>([
+                ...gone.map((id): [string, null] => [id, null]),
+                ...there.map(([id, light]): [string, Json] => [id, { ...absent, ...light }]),
+            ]);
+        } else {
+            patch[key] = { ...absent, ...section };
         }
-        for (const [id, light] of Object.entries(to.lights)) {
-            lights[id] = { ...light, name: light.name ?? null } as unknown as JsonObject;
-        }
-        patch["lights"] = lights;
     }
     return patch;
 }

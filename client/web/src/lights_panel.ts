@@ -11,7 +11,7 @@ import { LightList } from "./light_list";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
-import type { AreaLight } from "./wire/state";
+import { type AreaLight, kRanges } from "./wire/state";
 
 const kMinStops = -12;
 const kMaxStops = 16;
@@ -79,8 +79,8 @@ export class LightsPanel {
         colour.element.title = "A colour (#ffcc88) or a temperature (3200K)";
         pane.addBinding(model, "radius", {
             label: "radius °",
-            min: 0.05,
-            max: 90,
+            min: kRanges.lights.angular_radius_degrees.lowest,
+            max: kRanges.lights.angular_radius_degrees.highest,
             step: 0.05,
             format: amountText,
         }).on("change", () => {

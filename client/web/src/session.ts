@@ -65,13 +65,13 @@ export class Session {
         return this.shared?.revision ?? 0;
     }
 
-    get lightRevision(): number {
-        return this.shared?.lightRevision ?? 0;
+    get imageRevision(): number {
+        return this.shared?.imageRevision ?? 0;
     }
 
-    /** An edit of the light, more than of `display`, is unsent or unconfirmed. */
-    get hasPendingLight(): boolean {
-        return this.shared?.hasPendingLight ?? false;
+    /** An edit that makes another image is unsent or unconfirmed. */
+    get awaitsImage(): boolean {
+        return this.shared?.awaitsImage ?? false;
     }
 
     /** No edit of this page is unsent or unconfirmed. */

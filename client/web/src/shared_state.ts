@@ -6,6 +6,7 @@
 import { applyPatch, composePatches } from "./wire/merge_patch";
 import { sameJson } from "./wire/same_json";
 import type { Change, Snapshot } from "./wire/message";
+import { makesAnotherImage } from "./wire/stages";
 import type { Json, JsonObject, RoomState } from "./wire/state";
 
 interface PendingEdit {
@@ -19,14 +20,14 @@ export class SharedState {
     private queued: JsonObject | null = null;
     private cached: RoomState;
     revision: number;
-    /** The last revision that changed the light: more than `display` was in its patch. */
-    lightRevision: number;
+    /** The last revision that made another image: not of display or policy alone. */
+    imageRevision: number;
 
     constructor(snapshot: Snapshot) {
         this.confirmed = snapshot.state;
         this.cached = snapshot.state;
         this.revision = snapshot.revision;
-        this.lightRevision = snapshot.revision;
+        this.imageRevision = snapshot.revision;
     }
 
     get state(): RoomState {
@@ -47,11 +48,11 @@ export class SharedState {
         return this.queued !== null || this.pending.length > 0;
     }
 
-    /** One of those concerns more than `display`. */
-    get hasPendingLight(): boolean {
+    /** One of those makes another image. */
+    get awaitsImage(): boolean {
         const patches = this.pending.map(({ patch }) => patch);
         if (this.queued !== null) patches.push(this.queued);
-        return patches.some(concernsLight);
+        return patches.some(makesAnotherImage);
     }
 
     /** An edit that waits to be sent. */
@@ -70,7 +71,7 @@ export class SharedState {
     confirm(change: Change): void {
         this.confirmed = patched(this.confirmed, change.patch);
         this.revision = change.revision;
-        if (concernsLight(change.patch)) this.lightRevision = change.revision;
+        if (makesAnotherImage(change.patch)) this.imageRevision = change.revision;
         const id = change.edit_id;
         if (id !== undefined) this.pending = this.pending.filter((edit) => edit.id > id);
         this.overlay();
@@ -92,9 +93,4 @@ export class SharedState {
 
 function patched(state: RoomState, patch: JsonObject): RoomState {
     return applyPatch(state as unknown as Json, patch) as unknown as RoomState;
-}
-
-/** More than `display` is in the patch. */
-export function concernsLight(patch: JsonObject): boolean {
-    return Object.keys(patch).some((key) => key !== "display");
 }

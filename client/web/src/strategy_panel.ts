@@ -5,7 +5,7 @@ import { percentText } from "./format";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { Session } from "./session";
-import type { JsonObject, Method, Priority, RoomState } from "./wire/state";
+import type { JsonObject, RoomState, StrategyMethod, StrategyPriority } from "./wire/state";
 
 type BudgetKind = "milliseconds" | "coefficients";
 type BudgetRows = { [kind in BudgetKind]: { hidden: boolean } };
@@ -18,8 +18,8 @@ const kDefaultCoefficients = 100;
 
 export class StrategyPanel {
     private readonly model = {
-        method: "guarded" as Method,
-        priority: "benefit" as Priority,
+        method: "guarded" as StrategyMethod,
+        priority: "benefit" as StrategyPriority,
         budget: "milliseconds" as BudgetKind,
         milliseconds: kDefaultMilliseconds,
         coefficients: kDefaultCoefficients,

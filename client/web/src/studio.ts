@@ -24,7 +24,6 @@ import { type Place, subprotocols } from "./place";
 import { PreviewStore } from "./preview_store";
 import { type MarkKind, Readouts } from "./readouts";
 import { Session } from "./session";
-import { concernsLight } from "./shared_state";
 import { SoloSign } from "./solo_sign";
 import { StatusLine } from "./status_line";
 import { StrategyPanel } from "./strategy_panel";
@@ -33,6 +32,7 @@ import { UploadStore } from "./upload_store";
 import { isObject } from "./wire/merge_patch";
 import { titleOf } from "./wire/message";
 import { kEncodingJpeg, type ImageHeader } from "./wire/image_header";
+import { makesAnotherImage } from "./wire/stages";
 
 /** So long after an edit the light still counts as moving. */
 const kMovingMilliseconds = 250;
@@ -138,7 +138,7 @@ export class Studio {
             header !== null &&
             header.exact &&
             this.view.settled !== null &&
-            header.revision >= this.session.lightRevision &&
+            header.revision >= this.session.imageRevision &&
             this.session.isSettled
         );
     }
@@ -149,7 +149,7 @@ export class Studio {
         const { header, settled } = this.view;
         if (header === null) return "waiting";
         const isCurrent =
-            header.revision >= this.session.lightRevision && !this.session.hasPendingLight;
+            header.revision >= this.session.imageRevision && !this.session.awaitsImage;
         if (settled !== null && isCurrent) return header.exact ? "exact" : "settled";
         return performance.now() - this.movedAt < kMovingMilliseconds ? "moving" : "converging";
     }
@@ -157,11 +157,11 @@ export class Studio {
     /** A JPEG of light that already shows settled would be a step back. */
     private isWanted(header: ImageHeader): boolean {
         const { settled } = this.view;
-        const { lightRevision, revision } = this.session;
+        const { imageRevision, revision } = this.session;
         return !(
             header.encoding === kEncodingJpeg &&
             settled !== null &&
-            settled.header.revision >= lightRevision &&
+            settled.header.revision >= imageRevision &&
             header.revision <= revision
         );
     }
@@ -181,8 +181,8 @@ export class Studio {
         });
         session.stateChanged.listen((state) => {
             if (session.isSettled) this.lightReturn.roomChanged(state);
-            if (session.lightRevision !== this.knownRevision || !session.isSettled) {
-                this.knownRevision = session.lightRevision;
+            if (session.imageRevision !== this.knownRevision || !session.isSettled) {
+                this.knownRevision = session.imageRevision;
                 this.movedAt = performance.now();
             }
             this.readouts.refreshImage();
@@ -212,8 +212,8 @@ export class Studio {
             this.notices.show({ tone: "error", title, found, expected });
         });
         session.editSent.listen(({ id, patch }) => {
-            // Display shows at once, whatever the server does with it.
-            if (concernsLight(patch)) this.timer.editSent(id, performance.now());
+            // After an edit of display or policy no image has to come.
+            if (makesAnotherImage(patch)) this.timer.editSent(id, performance.now());
         });
         session.editConfirmed.listen(({ id, revision }) =>
             this.timer.editConfirmed(id, revision),

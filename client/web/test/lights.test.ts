@@ -5,7 +5,6 @@ import { levelText } from "../src/format";
 import { hexFromKelvin, kelvinFromText, linearFromKelvin } from "../src/kelvin";
 import {
     fieldsFromLevel,
-    kLargestRadiance,
     levelOfLight,
     radianceAtRadius,
     solidAngleSr,
@@ -13,7 +12,7 @@ import {
 } from "../src/light_level";
 import { environmentScale } from "../src/light_picture";
 import { angleDegrees, keyStops, newLight } from "../src/new_light";
-import type { AreaLight, RoomState } from "../src/wire/state";
+import { type AreaLight, kRanges, type RoomState } from "../src/wire/state";
 
 const kLight: AreaLight = {
     direction: [0, 1, 0],
@@ -56,7 +55,7 @@ describe("a light's level", () => {
             }
         }
         expect(Math.max(...fieldsFromLevel({ stops: 60, colour: "#fff" }, 1).radiance)).toBe(
-            kLargestRadiance,
+            kRanges.lights.radiance.highest,
         );
     });
 
@@ -70,7 +69,7 @@ describe("a light's level", () => {
             expect(levelOfLight(grown).stops).toBeCloseTo(levelOfLight(kLight).stops, 9);
         }
         const bright = { ...kLight, radiance: [9e7, 0, 0] } as AreaLight;
-        expect(radianceAtRadius(bright, 0.05)[0]).toBeCloseTo(kLargestRadiance, 3);
+        expect(radianceAtRadius(bright, 0.05)[0]).toBeCloseTo(kRanges.lights.radiance.highest, 3);
     });
 
     it("knows the texel of the lighting cubemap", () => {

@@ -76,13 +76,16 @@ describe("SharedState", () => {
         expect(shared.hasPending).toBe(false);
     });
 
-    it("tells changes of the light from changes of display", () => {
+    it("tells changes of the image from changes of display and policy", () => {
         const shared = open();
         const patch = { display: { exposure_stops: 1 } };
         shared.confirm({ type: "change", revision: 6, patch });
-        expect([shared.revision, shared.lightRevision]).toEqual([6, 5]);
+        expect([shared.revision, shared.imageRevision]).toEqual([6, 5]);
+        const policy = { budget: { target_error: 0.01 } };
+        shared.confirm({ type: "change", revision: 6, patch: policy });
+        expect(shared.imageRevision).toBe(5);
         shared.confirm({ type: "change", revision: 7, patch: { ...patch, ...gain(2) } });
-        expect([shared.revision, shared.lightRevision]).toEqual([7, 7]);
+        expect([shared.revision, shared.imageRevision]).toEqual([7, 7]);
     });
 });
 
@@ -110,16 +113,16 @@ describe("isForgottenBy", () => {
     });
 });
 
-describe("hasPendingLight", () => {
-    it("is about edits of the light on their way, not of display", () => {
+describe("awaitsImage", () => {
+    it("is about edits of the image on their way, not of display", () => {
         const shared = open();
         shared.queue({ display: { exposure_stops: 1 } });
-        expect([shared.hasPending, shared.hasPendingLight]).toEqual([true, false]);
+        expect([shared.hasPending, shared.awaitsImage]).toEqual([true, false]);
         shared.queue(gain(2));
-        expect(shared.hasPendingLight).toBe(true);
+        expect(shared.awaitsImage).toBe(true);
         shared.expect(1, gain(2));
-        expect(shared.hasPendingLight).toBe(true);
+        expect(shared.awaitsImage).toBe(true);
         shared.confirm({ type: "change", revision: 6, patch: gain(2), edit_id: 1 });
-        expect(shared.hasPendingLight).toBe(false);
+        expect(shared.awaitsImage).toBe(false);
     });
 });

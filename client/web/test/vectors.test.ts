@@ -10,7 +10,7 @@ import { isName } from "../src/place";
 import { imageHeaderFromFrame } from "../src/wire/image_header";
 import { applyPatch, composePatches, isObject } from "../src/wire/merge_patch";
 import { WireError } from "../src/wire/message";
-import type { JsonObject, Tone } from "../src/wire/state";
+import type { DisplayTone, JsonObject } from "../src/wire/state";
 
 function frameFromHex(hex: string, payloadBytes: number): ArrayBuffer {
     const header = hex.match(/../g)?.map((pair) => parseInt(pair, 16)) ?? [];
@@ -97,7 +97,7 @@ describe("names", () => {
 describe("display", () => {
     it("gives the code values of the reference", () => {
         for (const { linear, exposure_stops, tone, code } of displayVectors) {
-            const value = displayFromLinear(linear, { exposure_stops, tone: tone as Tone });
+            const value = displayFromLinear(linear, { exposure_stops, tone: tone as DisplayTone });
             // The reference computes in single precision: a value on the border may round over.
             expect(Math.abs(255 * value - code)).toBeLessThanOrEqual(0.5 + 1e-3);
         }
