@@ -1,10 +1,16 @@
 /** Edits of the room's round area lights, and which of them is selected on this page. */
 import { radianceAtRadius } from "./light_level";
 import { newLight, nextOrder, type Picture } from "./new_light";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import { Signal } from "./signal";
 import { clampTo } from "./wire/range";
-import { type AreaLight, type JsonObject, kRanges, type RoomState, type Triple } from "./wire/state";
+import {
+    type AreaLight,
+    type JsonObject,
+    kRanges,
+    type RoomState,
+    type Triple,
+} from "./wire/state";
 
 const kMostNameCharacters = 64;
 const kCopyTurnDegrees = 15;
@@ -58,17 +64,17 @@ export class AreaLights {
     private selectedId: string | null = null;
 
     constructor(
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly picture: () => Picture,
     ) {
-        session.stateChanged.listen((state) => {
+        connection.stateChanged.listen((state) => {
             if (this.selectedId !== null && !(this.selectedId in state.lights))
                 this.select(null);
         });
     }
 
     get all(): Lights {
-        return this.session.state?.lights ?? {};
+        return this.connection.state?.lights ?? {};
     }
 
     get selected(): string | null {
@@ -105,7 +111,7 @@ export class AreaLights {
     }
 
     remove(id: string): void {
-        if (id in this.all) this.session.edit({ lights: { [id]: null } });
+        if (id in this.all) this.connection.edit({ lights: { [id]: null } });
     }
 
     aim(id: string, direction: Triple): void {
@@ -125,10 +131,10 @@ export class AreaLights {
     }
 
     endSolo(): void {
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state === null) return;
         const solo = soloLights(state).map(([id]) => [id, { solo: false }] as const);
-        if (solo.length > 0) this.session.edit({ lights: Object.fromEntries(solo) });
+        if (solo.length > 0) this.connection.edit({ lights: Object.fromEntries(solo) });
     }
 
     /** By a factor; stays within what the server takes. */
@@ -148,13 +154,13 @@ export class AreaLights {
     }
 
     change(id: string, fields: Partial<AreaLight>): void {
-        this.session.edit({ lights: { [id]: { ...fields } as JsonObject } });
+        this.connection.edit({ lights: { [id]: { ...fields } as JsonObject } });
     }
 
     private put(id: string, light: AreaLight): string | null {
-        const most = this.session.snapshot?.limits["lights_per_room"] ?? 64;
+        const most = this.connection.snapshot?.limits["lights_per_room"] ?? 64;
         const isFull = Object.keys(this.all).length >= most;
-        if (this.session.status.kind !== "open" || isFull) return null;
+        if (this.connection.status.kind !== "open" || isFull) return null;
         this.change(id, light);
         this.select(id);
         return id;

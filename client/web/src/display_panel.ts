@@ -6,7 +6,7 @@ import { stopsText } from "./format";
 import { understandKelvin } from "./kelvin";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { BackgroundMode, DisplayTone, JsonObject, RoomState } from "./wire/state";
 
 /** The slider's; any value the server takes can be typed. */
@@ -24,13 +24,13 @@ export class DisplayPanel {
     private readonly defaultButtons: { hidden: boolean }[];
     private syncing = false;
     private readonly syncSoon = onceAFrame(() => {
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state !== null) this.sync(state);
     });
 
     constructor(
         root: HTMLElement,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly exposure: Exposure,
     ) {
         this.pane = new Pane({ container: root });
@@ -38,7 +38,7 @@ export class DisplayPanel {
         this.backgroundColour = this.addBackgroundBindings();
         labelFields(root);
         understandKelvin(root);
-        session.stateChanged.listen(() => this.syncSoon());
+        connection.stateChanged.listen(() => this.syncSoon());
         exposure.changed.listen(() => this.syncSoon());
     }
 
@@ -93,7 +93,7 @@ export class DisplayPanel {
     }
 
     private apply(patch: JsonObject): void {
-        if (!this.syncing) this.session.edit(patch);
+        if (!this.syncing) this.connection.edit(patch);
     }
 
     private sync(state: RoomState): void {

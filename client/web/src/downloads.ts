@@ -5,13 +5,13 @@ import type { ImageView, SettledImage } from "./image_view";
 import { lightingOf, textFromLighting } from "./lighting";
 import type { Notices } from "./notices";
 import { pngFromSettled } from "./png";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 
 const kAddressLifeMilliseconds = 10_000;
 
 export class Downloads {
     constructor(
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly view: ImageView,
         private readonly exposure: Exposure,
         private readonly notices: Notices,
@@ -31,13 +31,13 @@ export class Downloads {
         if (settled === null) return;
         const { exact, statedError, revision } = settled.header;
         const comments =
-            `Relume, scene ${this.session.snapshot?.scene.name ?? "?"}, revision ${revision}, ` +
+            `Relume, scene ${this.connection.snapshot?.scene.name ?? "?"}, revision ${revision}, ` +
             (exact ? "exact" : `stated relative L2 error ${statedError}`);
         this.save(await exrFromSettled(settled, comments), this.nameOf(settled, "exr"));
     }
 
     saveLighting(): void {
-        const { state, snapshot, revision } = this.session;
+        const { state, snapshot, revision } = this.connection;
         if (state === null || snapshot === null) return;
         const text = textFromLighting(lightingOf(state, this.exposure.display));
         this.save(
@@ -58,8 +58,8 @@ export class Downloads {
     }
 
     private nameOf(image: SettledImage, ending: string): string {
-        const scene = this.session.snapshot?.scene.name ?? "image";
-        const environment = this.session.state?.environment.name ?? "light";
+        const scene = this.connection.snapshot?.scene.name ?? "image";
+        const environment = this.connection.state?.environment.name ?? "light";
         return `${scene}-${environment}-r${image.header.revision}.${ending}`;
     }
 

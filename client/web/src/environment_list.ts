@@ -3,7 +3,7 @@ import type { EnvironmentEntry } from "./api";
 import { make, setText } from "./dom";
 import { environmentScale } from "./light_picture";
 import type { PreviewStore } from "./preview_store";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { RoomState } from "./wire/state";
 
 export class EnvironmentList {
@@ -13,10 +13,10 @@ export class EnvironmentList {
     constructor(
         private readonly root: HTMLElement,
         private readonly previews: PreviewStore,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
     ) {
-        session.stateChanged.listen(() => this.mark());
-        session.statusChanged.listen(() => this.mark());
+        connection.stateChanged.listen(() => this.mark());
+        connection.statusChanged.listen(() => this.mark());
         previews.loaded.listen((name) => this.drawPicture(name));
     }
 
@@ -32,13 +32,13 @@ export class EnvironmentList {
     }
 
     choose(name: string): void {
-        this.session.edit({ environment: { name } });
+        this.connection.edit({ environment: { name } });
     }
 
     /** The one after the current (or before it, with −1), round and round. */
     step(by: number): void {
         const { names } = this;
-        const current = names.indexOf(this.session.state?.environment.name ?? "");
+        const current = names.indexOf(this.connection.state?.environment.name ?? "");
         const next = names[(current + by + names.length) % names.length];
         if (next !== undefined) this.choose(next);
     }
@@ -78,11 +78,11 @@ export class EnvironmentList {
     }
 
     private mark(): void {
-        const { state } = this.session;
+        const { state } = this.connection;
         const other = state?.blend.name ?? null;
         for (const [name, button] of this.buttons) {
             button.setAttribute("aria-pressed", String(name === state?.environment.name));
-            button.disabled = this.session.status.kind !== "open";
+            button.disabled = this.connection.status.kind !== "open";
             const isOn = state !== null && environmentScale(state).some((part) => part > 0);
             button.classList.toggle("environment-dark", !isOn && isUsed(name, state));
             const blend = button.querySelector(".environment-blend");

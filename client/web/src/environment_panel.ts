@@ -7,7 +7,7 @@ import { understandKelvin } from "./kelvin";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { JsonObject, RoomState } from "./wire/state";
 
 /** At the lower end of its range the environment is off. */
@@ -29,14 +29,14 @@ export class EnvironmentPanel {
     private readonly blendFolder: FolderApi;
     private syncing = false;
     private readonly syncSoon = onceAFrame(() => {
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state !== null) this.sync(state);
     });
     private names: string[] = [];
 
     constructor(
         root: HTMLElement,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
     ) {
         this.pane = new Pane({ container: root });
         this.addLightBindings();
@@ -45,8 +45,8 @@ export class EnvironmentPanel {
         this.addRotationBindings();
         labelFields(root);
         understandKelvin(root);
-        session.stateChanged.listen(() => this.syncSoon());
-        session.statusChanged.listen(({ kind }) => {
+        connection.stateChanged.listen(() => this.syncSoon());
+        connection.statusChanged.listen(({ kind }) => {
             this.pane.disabled = kind !== "open";
         });
     }
@@ -115,12 +115,12 @@ export class EnvironmentPanel {
                 .on("change", rotate);
         }
         folder.addButton({ title: "Reset rotation" }).on("click", () => {
-            this.session.edit({ rotation: { quaternion: kIdentity } });
+            this.connection.edit({ rotation: { quaternion: kIdentity } });
         });
     }
 
     private apply(patch: JsonObject): void {
-        if (!this.syncing) this.session.edit(patch);
+        if (!this.syncing) this.connection.edit(patch);
     }
 
     private sync(state: RoomState): void {

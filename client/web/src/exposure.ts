@@ -6,7 +6,7 @@
  */
 import { sameDisplay } from "./display";
 import type { ImageView } from "./image_view";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import { Signal } from "./signal";
 import { clampTo } from "./wire/range";
 import { type DisplayState, kRanges } from "./wire/state";
@@ -20,13 +20,13 @@ export class Exposure {
     private timer = 0;
 
     constructor(
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly view: ImageView,
     ) {
-        session.stateChanged.listen(() => this.publish());
+        connection.stateChanged.listen(() => this.publish());
         // A new connection knows of no choice.
-        session.opened.listen(() => this.tell());
-        session.editSent.listen(() => {
+        connection.opened.listen(() => this.tell());
+        connection.editSent.listen(() => {
             if (this.timer !== 0) this.tell();
         });
     }
@@ -36,7 +36,7 @@ export class Exposure {
     }
 
     get roomDisplay(): DisplayState {
-        return this.session.state?.display ?? { exposure_stops: 0, tone: "filmic" as const };
+        return this.connection.state?.display ?? { exposure_stops: 0, tone: "filmic" as const };
     }
 
     /** This viewer sees something else than the room's default. */
@@ -63,7 +63,7 @@ export class Exposure {
     /** What this viewer sees becomes what everyone sees who has chosen nothing else. */
     makeDefault(): void {
         const { exposure_stops, tone } = this.display;
-        this.session.edit({ display: { exposure_stops, tone } });
+        this.connection.edit({ display: { exposure_stops, tone } });
         this.followRoom();
     }
 
@@ -83,7 +83,7 @@ export class Exposure {
     private tell(): void {
         clearTimeout(this.timer);
         this.timer = 0;
-        this.session.chooseDisplay(this.mine);
+        this.connection.chooseDisplay(this.mine);
     }
 
     private publish(): void {

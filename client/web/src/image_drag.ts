@@ -5,7 +5,7 @@
 import type { Exposure } from "./exposure";
 import { type DragMove, listenForDrag } from "./pointer_drag";
 import { turned } from "./rotation";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 
 /** Half a turn across the picture. */
 const kDegreesPerWidth = 180;
@@ -16,20 +16,20 @@ const kPixelsPerLine = 33;
 
 export type Turn = Parameters<typeof turned>[1];
 
-export function turnLight(session: Session, turn: Turn): void {
-    const quaternion = session.state?.rotation.quaternion;
+export function turnLight(connection: RoomConnection, turn: Turn): void {
+    const quaternion = connection.state?.rotation.quaternion;
     if (quaternion === undefined) return;
-    session.edit({ rotation: { quaternion: turned(quaternion, turn) } });
+    connection.edit({ rotation: { quaternion: turned(quaternion, turn) } });
 }
 
 /** Across turns; with Shift, up and down tips as well. */
 export function turnByDrag(
-    session: Session,
+    connection: RoomConnection,
     { dx, dy, event }: DragMove,
     degreesPerPixel: number,
 ): void {
     const across = dx * degreesPerPixel;
-    turnLight(session, event.shiftKey ? { across, down: dy * degreesPerPixel } : { across });
+    turnLight(connection, event.shiftKey ? { across, down: dy * degreesPerPixel } : { across });
 }
 
 /** Movement of the wheel in notches, down being positive. */
@@ -40,11 +40,15 @@ export function notchesFromWheel(event: WheelEvent): number {
     return event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? delta : delta / kPixelsPerNotch;
 }
 
-export function listenOnImage(frame: HTMLElement, session: Session, exposure: Exposure): void {
+export function listenOnImage(
+    frame: HTMLElement,
+    connection: RoomConnection,
+    exposure: Exposure,
+): void {
     listenForDrag(frame, {
-        start: () => session.status.kind === "open",
+        start: () => connection.status.kind === "open",
         move: (move) =>
-            turnByDrag(session, move, kDegreesPerWidth / Math.max(1, frame.clientWidth)),
+            turnByDrag(connection, move, kDegreesPerWidth / Math.max(1, frame.clientWidth)),
     });
     frame.addEventListener(
         "wheel",
@@ -52,7 +56,7 @@ export function listenOnImage(frame: HTMLElement, session: Session, exposure: Ex
             if (event.ctrlKey) return; // the browser's zoom
             event.preventDefault();
             const notches = notchesFromWheel(event);
-            if (event.altKey) turnLight(session, { clockwise: notches * kRollDegreesPerNotch });
+            if (event.altKey) turnLight(connection, { clockwise: notches * kRollDegreesPerNotch });
             else exposure.step(-notches * kStopsPerNotch);
         },
         { passive: false },

@@ -3,7 +3,7 @@
  * changes nothing. README.md documents it.
  */
 import type { ImageView } from "./image_view";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { ImageHeader } from "./wire/image_header";
 import type { DisplayState, RoomState } from "./wire/state";
 
@@ -31,26 +31,26 @@ export interface Inspection {
 }
 
 export function inspect(
-    session: Session,
+    connection: RoomConnection,
     view: ImageView,
     isExact: () => boolean,
     display: () => DisplayState,
 ): Inspection {
     return {
         get status() {
-            return session.status.kind;
+            return connection.status.kind;
         },
         get room() {
-            return session.snapshot?.room ?? null;
+            return connection.snapshot?.room ?? null;
         },
         get scene() {
-            return session.snapshot?.scene.name ?? null;
+            return connection.snapshot?.scene.name ?? null;
         },
         get revision() {
-            return session.revision;
+            return connection.revision;
         },
         get state() {
-            return session.state;
+            return connection.state;
         },
         get display() {
             return display();

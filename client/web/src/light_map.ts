@@ -22,7 +22,7 @@ import {
 import { onceAFrame } from "./once_a_frame";
 import { listenForDrag } from "./pointer_drag";
 import type { PreviewStore } from "./preview_store";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { AreaLight } from "./wire/state";
 
 const kSvg = "http://www.w3.org/2000/svg";
@@ -49,7 +49,7 @@ export class LightMap {
 
     constructor(
         private readonly root: HTMLElement,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly lights: AreaLights,
         private readonly previews: PreviewStore,
     ) {
@@ -59,7 +59,7 @@ export class LightMap {
         this.overlay.setAttribute("preserveAspectRatio", "none");
         root.append(this.canvas, this.overlay);
 
-        session.stateChanged.listen(() => this.redrawSoon());
+        connection.stateChanged.listen(() => this.redrawSoon());
         lights.selectionChanged.listen(() => this.redrawSoon());
         previews.loaded.listen(() => {
             this.drawn = "";
@@ -76,12 +76,12 @@ export class LightMap {
                 lights.select(null);
                 return true;
             },
-            move: (move) => turnByDrag(session, move, 360 / Math.max(1, root.clientWidth)),
+            move: (move) => turnByDrag(connection, move, 360 / Math.max(1, root.clientWidth)),
         });
     }
 
     private drawPicture(): void {
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state === null) return;
         const { environment, blend, rotation } = state;
         const other = blend.name ?? null;
@@ -142,7 +142,8 @@ export class LightMap {
         shape.classList.toggle("selected", id === this.lights.selected);
         shape.setAttribute(
             "aria-label",
-            `Light ${nameOfLight(id, light)}: radius ${amountText(light.angular_radius_degrees)} degrees, ` +
+            `Light ${nameOfLight(id, light)}: ` +
+                `radius ${amountText(light.angular_radius_degrees)} degrees, ` +
                 `azimuth ${Math.round(centre.u * 360 - 180)}, ` +
                 `elevation ${Math.round(90 - centre.v * 180)} degrees`,
         );

@@ -6,7 +6,7 @@
 import { type Api, ApiError } from "./api";
 import { type Lighting, mapsOf, patchToLighting, withoutMaps } from "./lighting";
 import type { Notices } from "./notices";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { UploadStore } from "./upload_store";
 import { titleOf } from "./wire/message";
 import { sameJson } from "./wire/same_json";
@@ -20,7 +20,7 @@ export class LightReturn {
     private busy = false;
 
     constructor(
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly api: Api,
         private readonly uploads: UploadStore,
         private readonly notices: Notices,
@@ -55,10 +55,10 @@ export class LightReturn {
     /** Returns whether all of it is in the room. What is not is said in a notice. */
     async bring(lighting: Lighting): Promise<boolean> {
         const { missing, problems } = await this.provideMaps(mapsOf(lighting));
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state === null) return this.fail(kLostWords, []);
-        this.session.edit(patchToLighting(state, withoutMaps(lighting, missing)));
-        const refusal = await this.session.settled();
+        this.connection.edit(patchToLighting(state, withoutMaps(lighting, missing)));
+        const refusal = await this.connection.settled();
         if (refusal === "lost") return this.fail(kLostWords, []);
         if (refusal !== null) {
             this.notices.show({

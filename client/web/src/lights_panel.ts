@@ -10,7 +10,7 @@ import { fieldsFromLevel, levelOfLight, texelRadiusDegrees } from "./light_level
 import { LightList } from "./light_list";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import { type AreaLight, kRanges } from "./wire/state";
 
 const kMinStops = -12;
@@ -47,7 +47,7 @@ export class LightsPanel {
 
     constructor(
         root: HTMLElement,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly lights: AreaLights,
     ) {
         this.list = new LightList(root, lights);
@@ -57,8 +57,8 @@ export class LightsPanel {
         this.paneHost.append(this.remark);
         labelFields(this.paneHost);
         understandKelvin(this.paneHost);
-        session.stateChanged.listen(() => this.redrawSoon());
-        session.statusChanged.listen(() => this.redrawSoon());
+        connection.stateChanged.listen(() => this.redrawSoon());
+        connection.statusChanged.listen(() => this.redrawSoon());
         lights.selectionChanged.listen(() => this.redrawSoon());
     }
 
@@ -122,7 +122,7 @@ export class LightsPanel {
         const light = selected === null ? undefined : this.lights.all[selected];
         this.paneHost.hidden = light === undefined;
         if (light === undefined) return;
-        this.pane.disabled = this.session.status.kind !== "open";
+        this.pane.disabled = this.connection.status.kind !== "open";
         const { model } = this;
         const { stops, colour } = levelOfLight(light);
         const { u, v } = positionFromDirection(light.direction);
@@ -143,7 +143,7 @@ export class LightsPanel {
         const keeps = this.lights.keepsPower
             ? "Resizing keeps the power: a larger light has softer shadows, not more light."
             : "Resizing keeps the radiance: a larger light gives more light.";
-        const faceResolution = this.session.snapshot?.scene.face_resolution;
+        const faceResolution = this.connection.snapshot?.scene.face_resolution;
         if (faceResolution === undefined) return keeps;
         const texel = texelRadiusDegrees(faceResolution);
         return light.angular_radius_degrees < texel

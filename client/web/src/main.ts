@@ -3,7 +3,7 @@ import { Api } from "./api";
 import { byId, isTyping, setText } from "./dom";
 import { turnLight } from "./image_drag";
 import { Notices } from "./notices";
-import { defaultRoom, type Place, placeFromAddress, sessionAddress } from "./place";
+import { defaultRoom, type Place, placeFromAddress, connectionAddress } from "./place";
 import { kIdentity } from "./rotation";
 import { ScenePicker } from "./scene_picker";
 import { fillHelp, type Gesture, listenForShortcuts, type Shortcut } from "./shortcuts";
@@ -32,7 +32,7 @@ const kGestures: Gesture[] = [
 ];
 
 function shortcutsOf(studio: Studio): Shortcut[] {
-    const { session, exposure, lights, environments, downloads, zoom } = studio;
+    const { connection, exposure, lights, environments, downloads, zoom } = studio;
     const step = (event: KeyboardEvent): number =>
         event.shiftKey ? kBigTurnDegrees : kTurnDegrees;
     const modes = ["environment", "colour", "transparent"] as const;
@@ -41,7 +41,7 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             keys: ["ArrowLeft", "ArrowRight"],
             words: "turn the light (Shift: faster)",
             run: (event) => {
-                turnLight(session, {
+                turnLight(connection, {
                     across: event.key === "ArrowLeft" ? -step(event) : step(event),
                 });
             },
@@ -50,7 +50,7 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             keys: ["ArrowUp", "ArrowDown"],
             words: "tip the light",
             run: (event) => {
-                turnLight(session, {
+                turnLight(connection, {
                     down: event.key === "ArrowUp" ? -step(event) : step(event),
                 });
             },
@@ -59,7 +59,7 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             keys: [",", "."],
             words: "roll the light",
             run: (event) => {
-                turnLight(session, {
+                turnLight(connection, {
                     clockwise: event.key === "," ? -kTurnDegrees : kTurnDegrees,
                 });
             },
@@ -67,7 +67,7 @@ function shortcutsOf(studio: Studio): Shortcut[] {
         {
             keys: ["r", "R"],
             words: "reset the rotation",
-            run: () => session.edit({ rotation: { quaternion: kIdentity } }),
+            run: () => connection.edit({ rotation: { quaternion: kIdentity } }),
         },
         {
             keys: ["e"],
@@ -94,9 +94,9 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             keys: ["b", "B"],
             words: "background: environment, colour, nothing",
             run: () => {
-                const mode = session.state?.background.mode ?? "environment";
+                const mode = connection.state?.background.mode ?? "environment";
                 const next = modes[(modes.indexOf(mode) + 1) % modes.length] ?? "environment";
-                session.edit({ background: { mode: next } });
+                connection.edit({ background: { mode: next } });
             },
         },
         { keys: ["l", "L"], words: "add a light", run: () => void lights.add() },
@@ -163,7 +163,7 @@ async function start(): Promise<void> {
     byId("stage-veil").classList.remove("stage-veil-links");
     const studio = new Studio(
         place,
-        sessionAddress(place, scene, room),
+        connectionAddress(place, scene, room),
         api,
         new Notices(byId("notices")),
     );

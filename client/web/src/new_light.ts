@@ -1,4 +1,4 @@
-/** What a light is like when it is added: its part, its place, and a level that fits the picture. */
+/** What a light is like when it is added: part, place, and a level that fits the picture. */
 import { fieldsFromLevel, levelOfLight } from "./light_level";
 import type { AreaLight, Triple } from "./wire/state";
 

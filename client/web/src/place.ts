@@ -74,7 +74,7 @@ export function defaultRoom(scene: string): string {
     return `studio-${scene}`.slice(0, 64);
 }
 
-export function sessionAddress(place: Place, scene: string, room: string): string {
+export function connectionAddress(place: Place, scene: string, room: string): string {
     const url = new URL(`/session/${room}`, place.server);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     url.searchParams.set("scene", scene);

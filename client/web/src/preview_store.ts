@@ -15,7 +15,7 @@ export class PreviewStore {
 
     constructor(private readonly api: Api) {}
 
-    /** What the server has at present: pictures of other versions are fetched anew when asked for. */
+    /** What the server has: pictures of other versions are fetched anew when asked for. */
     setEntries(entries: EnvironmentEntry[]): void {
         this.versions = new Map(entries.map(({ name, version }) => [name, version ?? 0]));
         for (const [name, { version }] of [...this.previews]) {

@@ -1,4 +1,4 @@
-/** Figures of the session: what shows, how good it is, how fast it came. */
+/** Figures of the connection: what shows, how good it is, how fast it came. */
 import { byId, setText } from "./dom";
 import type { EditTimer } from "./edit_timer";
 import type { ErrorPlot } from "./error_plot";

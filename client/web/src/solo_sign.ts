@@ -1,14 +1,14 @@
-/** Says in the header that lights are solo, and ends it: the rest of the light is dark meanwhile. */
+/** Says in the header that lights are solo, and ends it: the rest of the light is dark then. */
 import { type AreaLights, nameOfLight, soloLights } from "./area_lights";
 import { byId, setText } from "./dom";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 
 export class SoloSign {
     private readonly button = byId<HTMLButtonElement>("solo-sign");
 
-    constructor(session: Session, lights: AreaLights) {
+    constructor(connection: RoomConnection, lights: AreaLights) {
         this.button.addEventListener("click", () => lights.endSolo());
-        session.stateChanged.listen((state) => {
+        connection.stateChanged.listen((state) => {
             const names = soloLights(state).map(([id, light]) => nameOfLight(id, light));
             this.button.hidden = names.length === 0;
             setText(this.button, `Solo: ${names.join(", ")}`);

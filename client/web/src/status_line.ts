@@ -1,6 +1,6 @@
 /** The connection in words, with a countdown and a way to try at once. */
 import { byId, setText } from "./dom";
-import type { Session, SessionStatus } from "./session";
+import type { RoomConnection, ConnectionStatus } from "./room_connection";
 
 export class StatusLine {
     private readonly line = byId("status");
@@ -9,13 +9,13 @@ export class StatusLine {
     private readonly veil = byId("stage-veil");
     private clock = 0;
 
-    constructor(session: Session) {
-        this.retry.addEventListener("click", () => session.retryNow());
-        session.statusChanged.listen((status) => this.show(status));
-        this.show(session.status);
+    constructor(connection: RoomConnection) {
+        this.retry.addEventListener("click", () => connection.retryNow());
+        connection.statusChanged.listen((status) => this.show(status));
+        this.show(connection.status);
     }
 
-    private show(status: SessionStatus): void {
+    private show(status: ConnectionStatus): void {
         clearInterval(this.clock);
         this.line.dataset["kind"] = status.kind;
         this.retry.hidden = status.kind !== "waiting";
@@ -29,7 +29,7 @@ export class StatusLine {
         setText(this.veil, status.kind === "open" ? "" : status.words);
     }
 
-    private count(status: Extract<SessionStatus, { kind: "waiting" }>): void {
+    private count(status: Extract<ConnectionStatus, { kind: "waiting" }>): void {
         const seconds = Math.max(0, Math.ceil((status.retryAt - performance.now()) / 1000));
         setText(this.words, `${status.words}. Trying again in ${seconds} s`);
     }

@@ -4,7 +4,7 @@ import { make } from "./dom";
 import { percentText } from "./format";
 import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { JsonObject, RoomState, StrategyMethod, StrategyPriority } from "./wire/state";
 
 type BudgetKind = "milliseconds" | "coefficients";
@@ -29,13 +29,13 @@ export class StrategyPanel {
     private readonly amounts: BudgetRows;
     private syncing = false;
     private readonly syncSoon = onceAFrame(() => {
-        const { state } = this.session;
+        const { state } = this.connection;
         if (state !== null) this.sync(state);
     });
 
     constructor(
         root: HTMLElement,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
     ) {
         this.pane = new Pane({ container: root });
         const folder = this.pane.addFolder({ title: "Advanced", expanded: false });
@@ -43,7 +43,7 @@ export class StrategyPanel {
         this.amounts = this.addBudgetBindings(folder);
         this.addTargetBinding(folder);
         labelFields(root);
-        session.stateChanged.listen(() => this.syncSoon());
+        connection.stateChanged.listen(() => this.syncSoon());
     }
 
     private addStrategyBindings(folder: FolderApi): void {
@@ -124,7 +124,7 @@ export class StrategyPanel {
     }
 
     private apply(patch: JsonObject): void {
-        if (!this.syncing) this.session.edit(patch);
+        if (!this.syncing) this.connection.edit(patch);
     }
 
     private showAmount(): void {

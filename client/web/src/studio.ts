@@ -1,4 +1,4 @@
-/** The page put together: one session, what it shows, and what acts on it. */
+/** The page put together: one connection, what it shows, and what acts on it. */
 import type { Api } from "./api";
 import { AreaLights } from "./area_lights";
 import { DisplayPanel } from "./display_panel";
@@ -23,7 +23,7 @@ import { medianRadiance } from "./median_radiance";
 import { type Place, subprotocols } from "./place";
 import { PreviewStore } from "./preview_store";
 import { type MarkKind, Readouts } from "./readouts";
-import { Session } from "./session";
+import { RoomConnection } from "./room_connection";
 import { SoloSign } from "./solo_sign";
 import { StatusLine } from "./status_line";
 import { StrategyPanel } from "./strategy_panel";
@@ -38,7 +38,7 @@ import { makesAnotherImage } from "./wire/stages";
 const kMovingMilliseconds = 250;
 
 export class Studio {
-    readonly session: Session;
+    readonly connection: RoomConnection;
     readonly view: ImageView;
     readonly exposure: Exposure;
     readonly lights: AreaLights;
@@ -60,35 +60,35 @@ export class Studio {
         private readonly api: Api,
         private readonly notices: Notices,
     ) {
-        const session = new Session(address, subprotocols(place));
-        this.session = session;
+        const connection = new RoomConnection(address, subprotocols(place));
+        this.connection = connection;
         this.view = new ImageView(byId("image-frame"), place.mayUseGl);
         this.decoder = new ImageDecoder(
-            (sequence) => session.acknowledge(sequence),
+            (sequence) => connection.acknowledge(sequence),
             (header) => this.isWanted(header),
         );
-        this.exposure = new Exposure(session, this.view);
-        this.lights = new AreaLights(session, () => ({
+        this.exposure = new Exposure(connection, this.view);
+        this.lights = new AreaLights(connection, () => ({
             medianRadiance:
                 this.view.settled === null ? null : medianRadiance(this.view.settled),
             exposureStops: this.exposure.display.exposure_stops,
         }));
-        this.downloads = new Downloads(session, this.view, this.exposure, notices);
+        this.downloads = new Downloads(connection, this.view, this.exposure, notices);
         this.previews = new PreviewStore(api);
-        this.environments = new EnvironmentList(byId("environments"), this.previews, session);
-        this.environmentPanel = new EnvironmentPanel(byId("environment-controls"), session);
-        new LightMap(byId("light-map"), session, this.lights, this.previews);
-        new LightsPanel(byId("lights"), session, this.lights);
-        new DisplayPanel(byId("display-controls"), session, this.exposure);
-        new StrategyPanel(byId("strategy-controls"), session);
-        new StatusLine(session);
-        new SoloSign(session, this.lights);
+        this.environments = new EnvironmentList(byId("environments"), this.previews, connection);
+        this.environmentPanel = new EnvironmentPanel(byId("environment-controls"), connection);
+        new LightMap(byId("light-map"), connection, this.lights, this.previews);
+        new LightsPanel(byId("lights"), connection, this.lights);
+        new DisplayPanel(byId("display-controls"), connection, this.exposure);
+        new StrategyPanel(byId("strategy-controls"), connection);
+        new StatusLine(connection);
+        new SoloSign(connection, this.lights);
         this.readouts = new Readouts(
             this.timer,
             new ErrorPlot(byId("error-plot")),
             () => this.mark(),
             () => this.view.header,
-            () => session.snapshot?.scene.bake_error,
+            () => connection.snapshot?.scene.bake_error,
         );
         this.zoom = new ImageZoom(
             byId("stage"),
@@ -97,22 +97,22 @@ export class Studio {
             (words) => this.readouts.setZoom(words),
         );
         const uploads = new UploadStore(place.server);
-        this.lightReturn = new LightReturn(session, api, uploads, notices, () =>
+        this.lightReturn = new LightReturn(connection, api, uploads, notices, () =>
             this.loadEnvironments(),
         );
         this.listenForFiles(uploads);
-        listenOnImage(byId("image-frame"), session, this.exposure);
-        this.listenToSession();
+        listenOnImage(byId("image-frame"), connection, this.exposure);
+        this.listenToConnection();
         this.listenToDecoder();
     }
 
     start(): void {
-        this.session.connect();
+        this.connection.connect();
     }
 
     get inspection(): Inspection {
         return inspect(
-            this.session,
+            this.connection,
             this.view,
             () => this.isExact,
             () => this.exposure.display,
@@ -134,22 +134,22 @@ export class Studio {
     private get isExact(): boolean {
         const { header } = this.view;
         return (
-            this.session.status.kind === "open" &&
+            this.connection.status.kind === "open" &&
             header !== null &&
             header.exact &&
             this.view.settled !== null &&
-            header.revision >= this.session.imageRevision &&
-            this.session.isSettled
+            header.revision >= this.connection.imageRevision &&
+            this.connection.isSettled
         );
     }
 
     private mark(): MarkKind {
-        if (this.session.status.kind !== "open") return "offline";
+        if (this.connection.status.kind !== "open") return "offline";
         if (this.isExact) return "exact";
         const { header, settled } = this.view;
         if (header === null) return "waiting";
         const isCurrent =
-            header.revision >= this.session.imageRevision && !this.session.awaitsImage;
+            header.revision >= this.connection.imageRevision && !this.connection.awaitsImage;
         if (settled !== null && isCurrent) return header.exact ? "exact" : "settled";
         return performance.now() - this.movedAt < kMovingMilliseconds ? "moving" : "converging";
     }
@@ -157,7 +157,7 @@ export class Studio {
     /** A JPEG of light that already shows settled would be a step back. */
     private isWanted(header: ImageHeader): boolean {
         const { settled } = this.view;
-        const { imageRevision, revision } = this.session;
+        const { imageRevision, revision } = this.connection;
         return !(
             header.encoding === kEncodingJpeg &&
             settled !== null &&
@@ -166,29 +166,29 @@ export class Studio {
         );
     }
 
-    private listenToSession(): void {
-        const { session } = this;
-        session.opened.listen(({ snapshot: { scene, room }, forgotten }) => {
+    private listenToConnection(): void {
+        const { connection } = this;
+        connection.opened.listen(({ snapshot: { scene, room }, forgotten }) => {
             this.decoder.clear();
             this.timer.clear();
             this.readouts.clear();
-            this.knownRevision = session.revision;
+            this.knownRevision = connection.revision;
             this.view.forget();
             setText(byId("room-name"), room);
             document.title = `${scene.name} – Relume`;
             void this.loadEnvironments();
             if (forgotten !== null) this.lightReturn.offer(forgotten);
         });
-        session.stateChanged.listen((state) => {
-            if (session.isSettled) this.lightReturn.roomChanged(state);
-            if (session.imageRevision !== this.knownRevision || !session.isSettled) {
-                this.knownRevision = session.imageRevision;
+        connection.stateChanged.listen((state) => {
+            if (connection.isSettled) this.lightReturn.roomChanged(state);
+            if (connection.imageRevision !== this.knownRevision || !connection.isSettled) {
+                this.knownRevision = connection.imageRevision;
                 this.movedAt = performance.now();
             }
             this.readouts.refreshImage();
         });
         // A map that is named again may be another one of that name.
-        session.changed.listen((patch) => {
+        connection.changed.listen((patch) => {
             const named = [patch["environment"], patch["blend"]].map((section) =>
                 isObject(section) ? section["name"] : undefined,
             );
@@ -196,29 +196,29 @@ export class Studio {
             for (const name of maps) this.previews.forget(name);
             if (maps.length > 0) void this.loadEnvironments();
         });
-        session.statusChanged.listen(({ kind }) => {
+        connection.statusChanged.listen(({ kind }) => {
             byId("stage").dataset["status"] = kind;
             this.readouts.refreshImage();
         });
-        session.viewersChanged.listen((count) => setText(byId("viewers"), String(count)));
-        session.frameReceived.listen((frame) => {
+        connection.viewersChanged.listen((count) => setText(byId("viewers"), String(count)));
+        connection.frameReceived.listen((frame) => {
             const header = this.decoder.take(frame);
             this.readouts.frameReceived(header, frame.byteLength, performance.now());
         });
-        session.refused.listen((refusal) => {
+        connection.refused.listen((refusal) => {
             const { path, found, expected } = refusal;
             const title =
                 path === undefined ? titleOf(refusal) : `${path}: ${titleOf(refusal)}`;
             this.notices.show({ tone: "error", title, found, expected });
         });
-        session.editSent.listen(({ id, patch }) => {
+        connection.editSent.listen(({ id, patch }) => {
             // After an edit of display or policy no image has to come.
             if (makesAnotherImage(patch)) this.timer.editSent(id, performance.now());
         });
-        session.editConfirmed.listen(({ id, revision }) =>
+        connection.editConfirmed.listen(({ id, revision }) =>
             this.timer.editConfirmed(id, revision),
         );
-        session.editDropped.listen((id) => this.timer.editDropped(id));
+        connection.editDropped.listen((id) => this.timer.editDropped(id));
     }
 
     private listenForFiles(uploads: UploadStore): void {
@@ -227,7 +227,7 @@ export class Studio {
             input: byId<HTMLInputElement>("upload-input"),
             dropVeil: byId("drop-veil"),
         };
-        new Upload(elements, this.api, this.session, uploads, this.notices, {
+        new Upload(elements, this.api, this.connection, uploads, this.notices, {
             uploaded: async ({ name }) => {
                 this.previews.forget(name);
                 await this.loadEnvironments();

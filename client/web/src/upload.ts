@@ -7,7 +7,7 @@ import { bytesText } from "./format";
 import { type Lighting, LightingError, lightingFromText } from "./lighting";
 import type { Notices } from "./notices";
 import { nameFromText } from "./place";
-import type { Session } from "./session";
+import type { RoomConnection } from "./room_connection";
 import type { UploadStore } from "./upload_store";
 
 const kDefaultLimitBytes = 64 * 1024 * 1024;
@@ -31,7 +31,7 @@ export class Upload {
     constructor(
         private readonly elements: UploadElements,
         private readonly api: Api,
-        private readonly session: Session,
+        private readonly connection: RoomConnection,
         private readonly store: UploadStore,
         private readonly notices: Notices,
         private readonly listeners: UploadListeners,
@@ -78,7 +78,7 @@ export class Upload {
             );
             return;
         }
-        const limit = this.session.snapshot?.limits["upload_bytes"] ?? kDefaultLimitBytes;
+        const limit = this.connection.snapshot?.limits["upload_bytes"] ?? kDefaultLimitBytes;
         if (file.size > limit) {
             this.refuse(
                 `${file.name} is too large`,

@@ -8,7 +8,7 @@ export interface CloseMeaning {
 }
 
 const kMeanings = new Map<number, CloseMeaning>([
-    [1000, { words: "The server closed the session", retry: "soon" }],
+    [1000, { words: "The server closed the connection", retry: "soon" }],
     [1001, { words: "The server is shutting down", retry: "soon" }],
     [1003, { words: "The server refused a binary message from this page", retry: "never" }],
     [1006, { words: "Connection lost", retry: "soon" }],

@@ -1,4 +1,4 @@
-/** Text frames of the session, server to client [protocol/README.md §3.1]. */
+/** Text frames of the connection, server to client [protocol/README.md §3.1]. */
 import { errorWords } from "./error_code";
 import { isObject } from "./merge_patch";
 import type { Json, JsonObject, RoomState } from "./state";

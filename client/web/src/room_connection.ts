@@ -10,7 +10,7 @@ import { closeMeaning } from "./wire/close_code";
 import { messageFromText, type Refusal, type Snapshot, WireError } from "./wire/message";
 import type { DisplayState, JsonObject, RoomState } from "./wire/state";
 
-export type SessionStatus =
+export type ConnectionStatus =
     | { kind: "connecting"; words: string }
     | { kind: "open"; words: string }
     | { kind: "waiting"; words: string; retryAt: number }
@@ -26,8 +26,8 @@ export interface Opening {
 const kMostBufferedBytes = 64 * 1024;
 const kPolicyClose = 4000;
 
-export class Session {
-    readonly statusChanged = new Signal<SessionStatus>();
+export class RoomConnection {
+    readonly statusChanged = new Signal<ConnectionStatus>();
     readonly opened = new Signal<Opening>();
     /** The state to show has changed: by the server or by an edit of this page. */
     readonly stateChanged = new Signal<RoomState>();
@@ -40,7 +40,7 @@ export class Session {
     readonly editConfirmed = new Signal<{ id: number; revision: number }>();
     readonly editDropped = new Signal<number>();
 
-    status: SessionStatus = { kind: "connecting", words: "Connecting" };
+    status: ConnectionStatus = { kind: "connecting", words: "Connecting" };
     snapshot: Snapshot | null = null;
 
     private socket: WebSocket | null = null;
@@ -215,7 +215,7 @@ export class Session {
         this.timer = window.setTimeout(() => this.connect(), wait);
     }
 
-    private leave(status: SessionStatus): void {
+    private leave(status: ConnectionStatus): void {
         this.edits.clear();
         this.setStatus(status);
     }
@@ -224,7 +224,7 @@ export class Session {
         if (this.shared !== null) this.stateChanged.send(this.shared.state);
     }
 
-    private setStatus(status: SessionStatus): void {
+    private setStatus(status: ConnectionStatus): void {
         this.status = status;
         this.statusChanged.send(status);
     }

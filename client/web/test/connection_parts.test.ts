@@ -7,7 +7,7 @@ import {
     nameFromText,
     placeFromAddress,
     PlaceError,
-    sessionAddress,
+    connectionAddress,
     subprotocols,
 } from "../src/place";
 import { RateMeter } from "../src/rate_meter";
@@ -98,11 +98,13 @@ describe("place", () => {
         expect(at("http://a.test/?token=a#token=b%26").token).toBe("b&");
         const full = at("http://a.test/?server=b.test:81&scene=table&room=r1&token=t%26");
         expect(full.server).toBe("http://b.test:81");
-        expect(sessionAddress(full, "table", "r1")).toBe("ws://b.test:81/session/r1?scene=table");
+        expect(connectionAddress(full, "table", "r1")).toBe(
+            "ws://b.test:81/session/r1?scene=table",
+        );
         expect(subprotocols(full)).toEqual(["relume.v1", "relume.token.dCY"]);
         expect(subprotocols({ ...full, token: "§?>" })[1]).toBe("relume.token.wqc_Pg");
         expect(subprotocols(bare)).toEqual(["relume.v1"]);
-        expect(sessionAddress(bare, "box", defaultRoom("box"))).toBe(
+        expect(connectionAddress(bare, "box", defaultRoom("box"))).toBe(
             "wss://studio.test/session/studio-box?scene=box",
         );
     });
