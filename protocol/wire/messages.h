@@ -1,4 +1,4 @@
-// The text frames of a session, in both directions.
+// The text frames between a server and the clients of a room, in both directions.
 #pragma once
 
 #include "protocol/wire/errors.h"

@@ -3,6 +3,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { innerCubemap, lightingCubemap, lightsOf, profile } from "./lighting_cubemap.mjs";
+import { levelsOf } from "./source_map.mjs";
 import { relit, readTransport } from "./transport.mjs";
 import { codeOf, halfPlanes, imageHeader, isName, merged } from "./wire.mjs";
 
@@ -73,6 +75,33 @@ function assertAlike(found, expected, where) {
 test("normalised patches merged into the state give the result", () => {
     for (const { name, state, normalised, result } of read("patches.json")) {
         if (normalised !== undefined) assertAlike(merged(state, normalised), result, name);
+    }
+});
+
+test("states light as the texels of the cubemap say", () => {
+    const { face_resolution: n, maps, cases } = read("lightings.json");
+    const inner = Object.fromEntries(
+        Object.entries(maps).map(([name, map]) => [name, innerCubemap(levelsOf(map), n)]));
+    for (const { name, state, texels } of cases) {
+        const [first, second] = [state.environment.name, state.blend.name];
+        const found = lightingCubemap(lightsOf(state), inner[first], inner[second], n);
+        texels.forEach((plane, colour) => {
+            const tolerance = 1e-8 * Math.max(...plane);
+            plane.forEach((expected, texel) => {
+                const where = `${name}: colour ${colour}, texel ${texel}`;
+                assert.ok(Math.abs(found[colour][texel] - expected) <= tolerance, where);
+            });
+        });
+    }
+});
+
+test("round lights have the stated profile", () => {
+    for (const vector of read("light_profiles.json")) {
+        const { f } = profile((vector.angular_radius_degrees * Math.PI) / 180, vector.edge);
+        vector.distances.forEach((distance, i) => {
+            const off = Math.abs(f(distance) - vector.coverages[i]);
+            assert.ok(off <= 1e-8, `${JSON.stringify(vector)} at ${distance}`);
+        });
     }
 });
 
