@@ -1,7 +1,7 @@
 #include "client/cli/client_error.h"
 #include "client/cli/commands.h"
 #include "client/cli/http_client.h"
-#include "client/cli/session.h"
+#include "client/cli/room_connection.h"
 
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
@@ -70,24 +70,24 @@ json limits_in_force(const Url& server, const std::string& token, const std::str
     boost::asio::io_context io(1);
     std::optional<wire::Limits> limits;
     std::string why;
-    std::optional<Session> session;
-    session.emplace(
+    std::optional<RoomConnection> connection;
+    connection.emplace(
         io,
-        SessionOptions{.server = server,
-                       .room = random_room_name("info"),
-                       .scene = scene,
-                       .images = ImageChoice::settled,
-                       .token = token},
-        SessionListener{.on_snapshot =
-                            [&](const wire::Snapshot& snapshot) {
-                                limits = snapshot.limits;
-                                session->close();
-                            },
-                        .on_end = [&](const SessionEnd& end) { why = end.reason; }});
-    session->open();
+        ConnectionOptions{.server = server,
+                          .room = random_room_name("info"),
+                          .scene = scene,
+                          .images = ImageChoice::settled,
+                          .token = token},
+        ConnectionListener{.on_snapshot =
+                               [&](const wire::Snapshot& snapshot) {
+                                   limits = snapshot.limits;
+                                   connection->close();
+                               },
+                           .on_end = [&](const ConnectionEnd& end) { why = end.reason; }});
+    connection->open();
     io.run();
     if (!limits) {
-        throw ClientError("no session with the server: " + why);
+        throw ClientError("no connection with the server: " + why);
     }
     return wire::to_json(*limits);
 }

@@ -29,8 +29,8 @@ void test_load(const LoadCommandOptions& options) {
         Progress progress(options.progress);
         if (!progress.is_silent()) {
             load.on_progress = [&progress](const LoadProgress& at) {
-                progress.update(fmt::format("{} of {} sessions shown, {} edits, {} images",
-                                            at.shown, at.sessions, at.edits, at.images));
+                progress.update(fmt::format("{} of {} connections shown, {} edits, {} images",
+                                            at.shown, at.connections, at.edits, at.images));
             };
         }
         return run_load_test(load);
@@ -38,7 +38,7 @@ void test_load(const LoadCommandOptions& options) {
     fmt::print("{}\n", result.dump());
     if (!result.at("ok").get<bool>()) {
         throw ClientError(
-            fmt::format("load: found errors {} and ended sessions {}, expected none",
+            fmt::format("load: found errors {} and ended connections {}, expected none",
                         result.at("errors").dump(), result.at("ends").dump()));
     }
 }
@@ -53,12 +53,12 @@ void add_load_command(CLI::App& app) {
     LoadOptions& load = options->load;
     command->add_option("--scene", load.scene, "scene name on the server")->required();
     command->add_option("--sessions", load.dragging, "sessions that drag")
-        ->check(CLI::Range(std::size_t{0}, kMaxLoadSessions))
+        ->check(CLI::Range(std::size_t{0}, kMaxLoadConnections))
         ->capture_default_str();
     command->add_option("--idle", load.idle, "sessions that only watch")
-        ->check(CLI::Range(std::size_t{0}, kMaxLoadSessions))
+        ->check(CLI::Range(std::size_t{0}, kMaxLoadConnections))
         ->capture_default_str();
-    command->add_option("--rate", load.rate_hz, "edits per second of each dragging session")
+    command->add_option("--rate", load.rate_hz, "edits per second of each dragging connection")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
     command->add_option("--seconds", load.seconds, "how long to drag")
@@ -67,11 +67,11 @@ void add_load_command(CLI::App& app) {
     command->add_option("--budget-ms", load.budget_ms, "milliseconds asked for each image")
         ->check(CLI::Range(0.1, 1000.0));
     command->add_option("--patch", options->patch,
-                        "lighting that every dragging session begins with, as a JSON merge "
+                        "lighting that every dragging connection begins with, as a JSON merge "
                         "patch, or @FILE with one");
     command->add_flag("--progress", options->progress,
                       "say how far it is, also where standard error is no terminal");
-    command->add_option("--threads", load.threads, "threads for all sessions together")
+    command->add_option("--threads", load.threads, "threads for all connections together")
         ->check(CLI::Range(std::size_t{1}, std::size_t{64}))
         ->capture_default_str();
     command->callback([options] { test_load(*options); });

@@ -1,6 +1,6 @@
 #include "client/cli/load_test.h"
 
-#include "client/cli/session.h"
+#include "client/cli/room_connection.h"
 #include "client/cli/statistics.h"
 
 #include <boost/asio/post.hpp>
@@ -25,7 +25,7 @@ constexpr double kDegreesPerEdit = 1.5;
 // After the last edit, for its image to come.
 constexpr std::chrono::seconds kGrace{2};
 
-// For a session to open and show its first image, beside all the others.
+// For a connection to open and show its first image, beside all the others.
 constexpr std::chrono::seconds kLongestOpening{120};
 
 Clock::duration from_seconds(double seconds) {
@@ -52,8 +52,8 @@ class StartingLine {
 
 // What all visitors did so far. Safe to share between threads.
 struct Tally {
-    std::atomic<std::size_t> shown = 0;  // sessions that have their first image, or ended
-    std::atomic<std::size_t> ended = 0;  // sessions
+    std::atomic<std::size_t> shown = 0;  // connections that have their first image, or ended
+    std::atomic<std::size_t> ended = 0;  // connections
     std::atomic<std::size_t> edits = 0;
     std::atomic<std::size_t> images = 0;
 };
@@ -65,12 +65,12 @@ class Teller {
         : options_(options), tally_(tally), beat_(asio::make_strand(io)) {}
 
     void tell() {
-        const std::size_t sessions = options_.dragging + options_.idle;
-        options_.on_progress({.sessions = sessions,
+        const std::size_t connections = options_.dragging + options_.idle;
+        options_.on_progress({.connections = connections,
                               .shown = tally_.shown,
                               .edits = tally_.edits,
                               .images = tally_.images});
-        if (tally_.ended == sessions) {
+        if (tally_.ended == connections) {
             return;
         }
         beat_.expires_after(std::chrono::milliseconds(250));
@@ -87,12 +87,12 @@ class Teller {
     asio::steady_timer beat_;
 };
 
-// One simulated person. Everything in it happens on the session's strand.
+// One simulated person. Everything in it happens on the connection's strand.
 class Visitor {
   public:
     Visitor(asio::io_context& io,
             const LoadOptions& options,
-            SessionOptions session,
+            ConnectionOptions connection,
             bool drags,
             StartingLine& line,
             Tally& tally)
@@ -100,19 +100,19 @@ class Visitor {
           drags_(drags),
           line_(line),
           tally_(tally),
-          session_(io, std::move(session), listener()),
-          beat_(session_.executor()),
-          end_(session_.executor()) {}
+          connection_(io, std::move(connection), listener()),
+          beat_(connection_.executor()),
+          end_(connection_.executor()) {}
 
     void open() {
         opened_at_ = Clock::now();
         end_by(opened_at_ + kLongestOpening);
-        session_.open();
+        connection_.open();
     }
 
     // Everybody is there; the first edit comes after a delay.
     void go(Clock::duration delay) {
-        asio::post(session_.executor(), [this, delay] {
+        asio::post(connection_.executor(), [this, delay] {
             if (has_ended_) {
                 return;
             }
@@ -138,7 +138,7 @@ class Visitor {
     std::string early_end;  // empty when it lasted
 
   private:
-    SessionListener listener() {
+    ConnectionListener listener() {
         return {.on_snapshot = [this](const wire::Snapshot&) { joined(); },
                 .on_change = [](const wire::Change&) {},
                 .on_error =
@@ -146,7 +146,7 @@ class Visitor {
                         ++errors[std::string(wire::name_from_error_code(e.code))];
                     },
                 .on_image = [this](ReceivedImage&& i) { image(i); },
-                .on_end = [this](const SessionEnd& e) { ended(e); }};
+                .on_end = [this](const ConnectionEnd& e) { ended(e); }};
     }
 
     void end_by(Clock::time_point time) {
@@ -155,7 +155,7 @@ class Visitor {
             if (!error) {
                 lasted_ = last_edit_by_ != Clock::time_point{};
                 beat_.cancel();
-                session_.close();
+                connection_.close();
             }
         });
     }
@@ -187,7 +187,7 @@ class Visitor {
             if (edits == 0 && options_.budget_ms) {
                 patch["budget"]["milliseconds"] = *options_.budget_ms;
             }
-            session_.send_edit(patch);
+            connection_.send_edit(patch);
             ++edits;
             ++tally_.edits;
             next_edit_ += from_seconds(1 / options_.rate_hz);
@@ -214,7 +214,7 @@ class Visitor {
         }
     }
 
-    void ended(const SessionEnd& e) {
+    void ended(const ConnectionEnd& e) {
         has_ended_ = true;
         ++tally_.ended;
         beat_.cancel();
@@ -236,12 +236,12 @@ class Visitor {
     double yaw_degrees_ = 0;
     Clock::time_point next_edit_;
     Clock::time_point last_edit_by_;  // set once everybody is there
-    Session session_;
+    RoomConnection connection_;
     asio::steady_timer beat_;
     asio::steady_timer end_;
 };
 
-SessionOptions session_options(const LoadOptions& options, bool drags) {
+ConnectionOptions connection_options(const LoadOptions& options, bool drags) {
     return {.server = options.server,
             .room = random_room_name("load"),
             .scene = options.scene,
@@ -259,7 +259,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     const std::size_t count = options.dragging + options.idle;
     StartingLine line(count, [&] {
         for (std::size_t i = 0; i < count; ++i) {
-            // Spread over one beat, or all edits of all sessions would come at once.
+            // Spread over one beat, or all edits of all connections would come at once.
             visitors[i]->go(from_seconds(static_cast<double>(i) /
                                          (options.rate_hz * static_cast<double>(count))));
         }
@@ -267,7 +267,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     for (std::size_t i = 0; i < count; ++i) {
         const bool drags = i < options.dragging;
         visitors.push_back(std::make_unique<Visitor>(
-            io, options, session_options(options, drags), drags, line, tally));
+            io, options, connection_options(options, drags), drags, line, tally));
     }
     for (const auto& visitor : visitors) {
         visitor->open();

@@ -1,4 +1,4 @@
-// Many sessions at once: some drag, the others sit and watch; each in a room of its own.
+// Many connections at once: some drag, the others sit and watch; each in a room of its own.
 #pragma once
 
 #include "client/cli/url.h"
@@ -13,8 +13,8 @@
 namespace relume::cli {
 
 struct LoadProgress {
-    std::size_t sessions = 0;
-    std::size_t shown = 0;  // sessions that have their first image, or ended
+    std::size_t connections = 0;
+    std::size_t shown = 0;  // connections that have their first image, or ended
     std::size_t edits = 0;
     std::size_t images = 0;
 };
@@ -25,22 +25,21 @@ struct LoadOptions {
     std::string token;
     std::size_t dragging = 8;
     std::size_t idle = 0;
-    double rate_hz = 30;              // edits per second of each dragging session
+    double rate_hz = 30;              // edits per second of each dragging connection
     double seconds = 10;              // of dragging
     std::optional<double> budget_ms;  // per image; the server's default without
     std::size_t threads = 1;
     nlohmann::json patch =
-        nlohmann::json::object();  // part of each dragging session's first edit
+        nlohmann::json::object();  // part of each dragging connection's first edit
     // Called some times a second, by one thread at a time.
     std::function<void(const LoadProgress&)> on_progress;
 };
 
-inline constexpr std::size_t kMaxLoadSessions = 10'000;
+inline constexpr std::size_t kMaxLoadConnections = 10'000;
 
-// Counts, images per second, and over all dragging sessions the spreads of edit-to-image and of
-// the errors stated on the images that answered; "errors"
-// counts refusals by code, "ends" the sessions that did not last, by reason. "ok" when there
-// are none.
+// Counts, images per second, and over all dragging connections the spreads of edit-to-image and
+// of the errors stated on the images that answered; "errors" counts refusals by code, "ends"
+// the connections that did not last, by reason. "ok" when there are none.
 [[nodiscard]] nlohmann::json run_load_test(const LoadOptions& options);
 
 }  // namespace relume::cli

@@ -1,4 +1,4 @@
-// relume: renders, plays scripted sessions and tests load against a running relume-server.
+// relume: renders, plays scripts of edits and tests load against a running relume-server.
 #include "client/cli/commands.h"
 #include "protocol/base/program/program.h"
 

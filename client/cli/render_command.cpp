@@ -78,11 +78,11 @@ void render(const RenderOptions& options) {
         patch["budget"]["target_error"] = options.until_error.value_or(0);
     }
     const SettledImageRequest request{
-        .session = {.server = server,
-                    .room = is_private ? random_room_name("render") : options.room,
-                    .scene = options.scene,
-                    .images = ImageChoice::settled,
-                    .token = options.server.token},
+        .connection = {.server = server,
+                       .room = is_private ? random_room_name("render") : options.room,
+                       .scene = options.scene,
+                       .images = ImageChoice::settled,
+                       .token = options.server.token},
         .patch = std::move(patch),
         .until_error = options.until_error,
         .timeout = std::chrono::milliseconds(
@@ -91,7 +91,7 @@ void render(const RenderOptions& options) {
     write_image_file(options.output, settled.image, settled.header, settled.state.display);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     if (options.json) {
-        fmt::print("{}\n", summary_of(settled, request.session.room, seconds).dump());
+        fmt::print("{}\n", summary_of(settled, request.connection.room, seconds).dump());
     } else {
         spdlog::info("{}: {}×{}, {} after {:.2f} s", options.output, settled.header.width,
                      settled.header.height,

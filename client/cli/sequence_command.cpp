@@ -57,13 +57,13 @@ void play(const SequenceCommandOptions& options) {
         sequence.script.start["environment"]["name"] = environment_on_server(
             server, options.server.token, options.environment, options.map);
     }
-    sequence.session = {
+    sequence.connection = {
         .server = server,
         .room = options.room.empty() ? random_room_name("sequence") : options.room,
         .scene = options.scene.empty() ? sequence.script.scene : options.scene,
         .images = ImageChoice::all,
         .token = options.server.token};
-    if (options.room.empty() && sequence.session.scene.empty()) {
+    if (options.room.empty() && sequence.connection.scene.empty()) {
         throw program::UsageError(
             "sequence: found no scene, expected one in the script or by --scene");
     }
@@ -83,8 +83,8 @@ void play(const SequenceCommandOptions& options) {
             require_writable(file);
         }
     }
-    if (!sequence.session.scene.empty()) {
-        require_scene(server, sequence.session.scene);
+    if (!sequence.connection.scene.empty()) {
+        require_scene(server, sequence.connection.scene);
     }
     const SequenceReport report = [&] {
         Progress progress(options.progress);
@@ -109,7 +109,7 @@ void play(const SequenceCommandOptions& options) {
 void add_sequence_command(CLI::App& app) {
     auto options = std::make_shared<SequenceCommandOptions>();
     CLI::App* command = app.add_subcommand(
-        "sequence", "Play a scripted session in real time; record images, errors and timings.");
+        "sequence", "Play a script of edits in real time; record images, errors and timings.");
     add_server_options(*command, options->server);
     command->add_option("script", options->script, "script, a JSON file")->required();
     command->add_option("--scene", options->scene, "scene name (default: the script's)");

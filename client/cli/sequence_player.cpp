@@ -24,15 +24,15 @@ class Player {
   public:
     explicit Player(const SequenceOptions& options)
         : options_(options),
-          session_(io_, options.session, listener()),
-          timer_(session_.executor()),
-          deadline_(session_.executor()) {}
+          connection_(io_, options.connection, listener()),
+          timer_(connection_.executor()),
+          deadline_(connection_.executor()) {}
 
     SequenceReport run() {
-        report_.room = options_.session.room;
+        report_.room = options_.connection.room;
         report_.rate_hz = options_.rate_hz;
         set_deadline(kShowTimeout, "a snapshot");
-        session_.open();
+        connection_.open();
         io_.run();
         if (!failure_.empty()) {
             throw ClientError(failure_);
@@ -42,13 +42,13 @@ class Player {
     }
 
   private:
-    SessionListener listener() {
+    ConnectionListener listener() {
         return {
             .on_snapshot = [this](const wire::Snapshot& s) { snapshot(s); },
             .on_change = [this](const wire::Change& c) { change(c); },
             .on_error = [this](const wire::ErrorMessage& e) { fail("refused: " + e.message); },
             .on_image = [this](ReceivedImage&& i) { image(std::move(i)); },
-            .on_end = [this](const SessionEnd& e) { ended(e); }};
+            .on_end = [this](const ConnectionEnd& e) { ended(e); }};
     }
 
     void snapshot(const wire::Snapshot& s) {
@@ -114,7 +114,7 @@ class Player {
     }
 
     void edit(nlohmann::json patch) {
-        last_edit_id_ = session_.send_edit(std::move(patch));
+        last_edit_id_ = connection_.send_edit(std::move(patch));
         last_edit_revision_.reset();
         last_edit_shown_ = false;
         exact_ = false;
@@ -150,7 +150,7 @@ class Player {
             condition_ = nullptr;
             deadline_.cancel();
             // Not from within: this image has yet to be acknowledged.
-            asio::post(session_.executor(), std::exchange(reached_, nullptr));
+            asio::post(connection_.executor(), std::exchange(reached_, nullptr));
         }
     }
 
@@ -232,18 +232,18 @@ class Player {
         condition_ = nullptr;
         timer_.cancel();
         deadline_.cancel();
-        session_.close();
+        connection_.close();
     }
 
-    void ended(const SessionEnd& e) {
-        fail("the session ended: " + e.reason);
+    void ended(const ConnectionEnd& e) {
+        fail("the connection ended: " + e.reason);
         timer_.cancel();
         deadline_.cancel();
     }
 
     const SequenceOptions& options_;
     asio::io_context io_{1};
-    Session session_;
+    RoomConnection connection_;
     asio::steady_timer timer_;     // the beat and timed rests
     asio::steady_timer deadline_;  // of what is awaited
     ImageWriter writer_;

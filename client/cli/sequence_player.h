@@ -1,9 +1,9 @@
 // Plays a script against a server in real time and records what comes back.
 #pragma once
 
+#include "client/cli/room_connection.h"
 #include "client/cli/sequence_report.h"
 #include "client/cli/sequence_script.h"
-#include "client/cli/session.h"
 
 #include <filesystem>
 #include <functional>
@@ -23,7 +23,7 @@ struct SequenceProgress {
 };
 
 struct SequenceOptions {
-    SessionOptions session;
+    ConnectionOptions connection;
     SequenceScript script;
     double rate_hz = 30;
     ImageFiles files = ImageFiles::none;
@@ -34,7 +34,7 @@ struct SequenceOptions {
 
 // The start patch is sent first and waited for; images and times count from the first step on.
 // After the last step it waits until the last edit is shown. Throws ClientError when an edit is
-// refused, the session ends early, or a rest runs out of time.
+// refused, the connection ends early, or a rest runs out of time.
 [[nodiscard]] SequenceReport play_sequence(const SequenceOptions& options);
 
 }  // namespace relume::cli

@@ -1,4 +1,4 @@
-// A scripted session: what is edited when. README.md of this folder has the schema.
+// A sequence of edits: what is edited when. README.md of this folder has the schema.
 #pragma once
 
 #include <Imath/ImathVec.h>

@@ -15,8 +15,8 @@ class Fetch {
   public:
     explicit Fetch(const SettledImageRequest& request)
         : request_(request),
-          session_(io_, options_of(request), listener()),
-          deadline_(session_.executor()) {}
+          connection_(io_, options_of(request), listener()),
+          deadline_(connection_.executor()) {}
 
     SettledImage run() {
         deadline_.expires_after(request_.timeout);
@@ -26,7 +26,7 @@ class Fetch {
                                  progress_, goal()));
             }
         });
-        session_.open();
+        connection_.open();
         io_.run();
         if (!failure_.empty()) {
             throw ClientError(failure_);
@@ -35,18 +35,18 @@ class Fetch {
     }
 
   private:
-    static SessionOptions options_of(const SettledImageRequest& request) {
-        SessionOptions options = request.session;
+    static ConnectionOptions options_of(const SettledImageRequest& request) {
+        ConnectionOptions options = request.connection;
         options.images = ImageChoice::settled;
         return options;
     }
 
-    SessionListener listener() {
+    ConnectionListener listener() {
         return {.on_snapshot = [this](const wire::Snapshot& s) { snapshot(s); },
                 .on_change = [this](const wire::Change& c) { change(c); },
                 .on_error = [this](const wire::ErrorMessage& e) { refused(e); },
                 .on_image = [this](ReceivedImage&& i) { image(i); },
-                .on_end = [this](const SessionEnd& e) { ended(e); }};
+                .on_end = [this](const ConnectionEnd& e) { ended(e); }};
     }
 
     [[nodiscard]] std::string goal() const {
@@ -64,7 +64,7 @@ class Fetch {
             progress_ = "no settled image yet";
         } else {
             sent_ = Clock::now();
-            edit_id_ = session_.send_edit(request_.patch);
+            edit_id_ = connection_.send_edit(request_.patch);
             progress_ = "no answer to the edit";
         }
     }
@@ -107,10 +107,10 @@ class Fetch {
         finish();
     }
 
-    void ended(const SessionEnd& e) {
+    void ended(const ConnectionEnd& e) {
         deadline_.cancel();
         if (!done_ && failure_.empty()) {
-            failure_ = e.was_open ? "the server ended the session: " + e.reason : e.reason;
+            failure_ = e.was_open ? "the server ended the connection: " + e.reason : e.reason;
         }
     }
 
@@ -123,12 +123,12 @@ class Fetch {
 
     void finish() {
         deadline_.cancel();
-        session_.close();
+        connection_.close();
     }
 
     const SettledImageRequest& request_;
     asio::io_context io_{1};
-    Session session_;
+    RoomConnection connection_;
     asio::steady_timer deadline_;
     wire::Limits limits_;
     SettledImage result_;

@@ -1,7 +1,7 @@
 // One image of one state: join a room, edit it or not, wait until the image is good enough.
 #pragma once
 
-#include "client/cli/session.h"
+#include "client/cli/room_connection.h"
 #include "protocol/wire/half_image.h"
 #include "protocol/wire/messages.h"
 
@@ -14,7 +14,7 @@
 namespace relume::cli {
 
 struct SettledImageRequest {
-    SessionOptions session;
+    ConnectionOptions connection;
     nlohmann::json patch = nlohmann::json::object();  // empty leaves the room as it is
     // Accept a settled image at or below this stated error; otherwise only an exact one. The
     // room settles there only if its budget's target_error says so.
@@ -30,7 +30,8 @@ struct SettledImage {
     std::optional<double> edit_to_image_ms;  // until the settled image; none without an edit
 };
 
-// Throws ClientError when the server refuses, ends the session, or does not get there in time.
+// Throws ClientError when the server refuses, ends the connection, or does not get there in
+// time.
 [[nodiscard]] SettledImage fetch_settled_image(const SettledImageRequest& request);
 
 }  // namespace relume::cli

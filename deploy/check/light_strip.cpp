@@ -1,5 +1,5 @@
-// relume-light-strip: the light of a session's state as a picture, for programs that know
-// nothing of sessions. What relume-bake relight makes of it is what relume-server must show.
+// relume-light-strip: the light of a room's state as a picture, for programs that know
+// nothing of rooms. What relume-bake relight makes of it is what relume-server must show.
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/program.h"
 #include "protocol/wire/json_text.h"
@@ -99,7 +99,7 @@ void write_strip(const light::LightCubemap& cubemap, const fs::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Writes the light of a session's state as a cubemap strip of radiance.",
+    CLI::App app("Writes the light of a room's state as a cubemap strip of radiance.",
                  "relume-light-strip");
     Arguments arguments;
     app.add_option("--state", arguments.state,

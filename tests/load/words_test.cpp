@@ -86,7 +86,7 @@ TEST_F(EndToEnd, LightingComesFromAFileAndOptionsGoOverIt) {
     const Answer load = run({"load", "--scene", "box", "--patch", file, "--sessions", "1",
                              "--rate", "20", "--seconds", "0.5", "--progress"});
     ASSERT_EQ(load.exit_code, 0) << load.errors;
-    EXPECT_NE(load.errors.find("of 1 sessions shown"), std::string::npos) << load.errors;
+    EXPECT_NE(load.errors.find("of 1 connections shown"), std::string::npos) << load.errors;
 }
 
 TEST_F(EndToEnd, WhatCannotBeWrittenIsSaidBeforeTheServerIsAsked) {

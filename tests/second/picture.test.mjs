@@ -11,7 +11,7 @@ import { mapFromRadiance } from "./radiance_file.mjs";
 import { lamps, sunnySky } from "./radiance_writer.mjs";
 import { levelsOf } from "./source_map.mjs";
 import { readTransport } from "./transport.mjs";
-import { Session, halfPlanes, http } from "./wire.mjs";
+import { RoomConnection, halfPlanes, http } from "./wire.mjs";
 
 const { RELUME_BAKE, RELUME_SERVER } = process.env;
 const TOKEN = "a token, with §?>";
@@ -113,14 +113,14 @@ for (const name of Object.keys(BASES)) {
     test(`${name}: the server's exact image is the page's`, async () => {
         const transport = readTransport(join(folder, "scenes", `${name}.relume`));
         const { width, height } = transport.manifest.image;
-        const session = await Session.open(
+        const connection = await RoomConnection.open(
             address, `/session/${name}?scene=${name}&images=settled`, TOKEN);
-        session.start();
+        connection.start();
         let id = 0;
         for (const [what, patch] of Object.entries(STATES)) {
-            const { header, payload } = await session.exactImage(patch, ++id);
+            const { header, payload } = await connection.exactImage(patch, ++id);
             const planes = halfPlanes(payload, width, height, header.has_alpha);
-            const state = session.state;
+            const state = connection.state;
             const { rgb, alpha } = pictureOf(transport, state, {
                 environment: ofMaps[state.environment.name],
                 blend: ofMaps[state.blend.name],
@@ -133,6 +133,6 @@ for (const name of Object.keys(BASES)) {
                 assert.ok(relativeL2(found, alpha) <= 3e-4, `${what}: coverage`);
             }
         }
-        session.close();
+        connection.close();
     });
 }

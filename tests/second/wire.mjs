@@ -143,8 +143,8 @@ export function http(server, method, path, body) {
     });
 }
 
-/** A session: emits "text" with a message, "image" with header and payload, "close". */
-export class Session extends EventEmitter {
+/** A connection: emits "text" with a message, "image" with header and payload, "close". */
+export class RoomConnection extends EventEmitter {
     static async open(server, path, token) {
         const base64url = Buffer.from(token).toString("base64url");
         const headers = {
@@ -160,7 +160,7 @@ export class Session extends EventEmitter {
         if (answer.headers["sec-websocket-protocol"] !== "relume.v1") {
             throw new Error("the server has not chosen relume.v1");
         }
-        return new Session(socket, head);
+        return new RoomConnection(socket, head);
     }
 
     constructor(socket, head) {
@@ -244,7 +244,7 @@ export class Session extends EventEmitter {
                 resolve({ header, payload });
             };
             this.on("text", onText).on("image", onImage);
-            this.on("close", () => reject(new Error("the session has ended")));
+            this.on("close", () => reject(new Error("the connection has ended")));
             this.send({ type: "edit", id, patch });
         });
     }

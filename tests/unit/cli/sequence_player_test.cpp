@@ -31,7 +31,7 @@ void play_server(LoopbackPeer& peer, std::size_t edits, std::vector<json>& patch
 
 SequenceOptions options_for(const LoopbackServer& server, const char* script) {
     SequenceOptions options;
-    options.session = {.server = server.url(), .room = "r", .scene = "tiny", .token = ""};
+    options.connection = {.server = server.url(), .room = "r", .scene = "tiny", .token = ""};
     options.script = sequence_script_from_text(script);
     options.rate_hz = 500;
     return options;

@@ -13,10 +13,11 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 
 SettledImageRequest request_to(const LoopbackServer& server) {
-    return {.session = {.server = server.url(), .room = "r", .scene = "tiny", .token = "a b"},
-            .patch = {{"environment", {{"gain", 2}}}},
-            .until_error = std::nullopt,
-            .timeout = 20s};
+    return {
+        .connection = {.server = server.url(), .room = "r", .scene = "tiny", .token = "a b"},
+        .patch = {{"environment", {{"gain", 2}}}},
+        .until_error = std::nullopt,
+        .timeout = 20s};
 }
 
 std::string failure_of(const SettledImageRequest& request) {
@@ -117,7 +118,7 @@ TEST(SettledImages, ARefusedEditFailsWithTheServersWords) {
               std::string::npos);
 }
 
-TEST(SettledImages, AClosedSessionFailsWithItsReason) {
+TEST(SettledImages, AClosedConnectionFailsWithItsReason) {
     LoopbackServer server([](LoopbackPeer& peer) { peer.close(4007, "too many rooms"); });
     EXPECT_NE(failure_of(request_to(server)).find("too many rooms"), std::string::npos);
     LoopbackServer mute([](LoopbackPeer& peer) {
@@ -167,7 +168,7 @@ TEST(SettledImages, AFrameBeyondTheSceneIsNotReadWhole) {
         peer.send_binary(std::vector<std::byte>(std::size_t{3} << 20));
         static_cast<void>(peer.receive());
     });
-    EXPECT_NE(failure_of(request_to(server)).find("ended the session"), std::string::npos);
+    EXPECT_NE(failure_of(request_to(server)).find("ended the connection"), std::string::npos);
 }
 
 TEST(SettledImages, ASilentServerRunsOutOfTime) {

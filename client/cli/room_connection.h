@@ -1,4 +1,4 @@
-// One WebSocket session with a server: edits out; snapshot, changes, errors and images in.
+// A client in a room, over one WebSocket: edits out; snapshot, changes, errors and images in.
 #pragma once
 
 #include "client/cli/edit_clock.h"
@@ -20,7 +20,7 @@ namespace relume::cli {
 
 enum class ImageChoice { all, settled };
 
-struct SessionOptions {
+struct ConnectionOptions {
     Url server;
     std::string room;
     std::string scene;  // may be empty when the room exists
@@ -37,31 +37,33 @@ struct ReceivedImage {
     std::vector<double> edit_to_image_ms;
 };
 
-struct SessionEnd {
+struct ConnectionEnd {
     bool was_open = false;  // a snapshot had come
     std::string reason;     // for people
 };
 
-// What a session tells; all of it from within Session::run's executor, never concurrently.
-struct SessionListener {
+// What a connection tells; all of it from within its executor, never concurrently.
+struct ConnectionListener {
     // The first one.
     std::function<void(const wire::Snapshot&)> on_snapshot = [](const auto&) {};
     std::function<void(const wire::Change&)> on_change = [](const auto&) {};
     std::function<void(const wire::ErrorMessage&)> on_error = [](const auto&) {};
     std::function<void(ReceivedImage&&)> on_image = [](auto&&) {};
-    std::function<void(const SessionEnd&)> on_end = [](const auto&) {};  // last of all, once
+    std::function<void(const ConnectionEnd&)> on_end = [](const auto&) {};  // last of all, once
 };
 
 // Acknowledges every image once on_image has returned. Keeps itself alive while connected.
 // Member functions are called from the listener's callbacks or from handlers on `executor()`.
-class Session {
+class RoomConnection {
   public:
-    Session(boost::asio::io_context& io, SessionOptions options, SessionListener listener);
-    ~Session();
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
-    Session(Session&&) = delete;
-    Session& operator=(Session&&) = delete;
+    RoomConnection(boost::asio::io_context& io,
+                   ConnectionOptions options,
+                   ConnectionListener listener);
+    ~RoomConnection();
+    RoomConnection(const RoomConnection&) = delete;
+    RoomConnection& operator=(const RoomConnection&) = delete;
+    RoomConnection(RoomConnection&&) = delete;
+    RoomConnection& operator=(RoomConnection&&) = delete;
 
     void open();
     // Sends an edit and returns its id; ids count up from 1.
@@ -69,12 +71,12 @@ class Session {
     // Says goodbye; on_end follows.
     void close();
 
-    // A strand of the io_context; timers that touch the session run on it.
+    // A strand of the io_context; timers that touch the connection run on it.
     [[nodiscard]] boost::asio::any_io_executor executor() const;
 
   private:
-    class Connection;
-    std::shared_ptr<Connection> connection_;
+    class Socket;
+    std::shared_ptr<Socket> socket_;
 };
 
 // A name for a room that nobody else uses: "PREFIX-" and 16 random hexadecimal digits.

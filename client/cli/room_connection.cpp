@@ -1,4 +1,4 @@
-#include "client/cli/session.h"
+#include "client/cli/room_connection.h"
 
 #include "protocol/wire/errors.h"
 
@@ -24,7 +24,7 @@ namespace {
 // An unsent edit is stale already; far more of them than one sends in a second is a stall.
 constexpr std::size_t kMaxQueuedMessages = 4096;
 
-std::string target_of(const SessionOptions& options) {
+std::string target_of(const ConnectionOptions& options) {
     std::string target = fmt::format("{}/session/{}?images={}", options.server.prefix,
                                      percent_encoded(options.room),
                                      options.images == ImageChoice::all ? "all" : "settled");
@@ -52,9 +52,9 @@ std::string text_from(const websocket::close_reason& close) {
 
 }  // namespace
 
-class Session::Connection : public std::enable_shared_from_this<Connection> {
+class RoomConnection::Socket : public std::enable_shared_from_this<Socket> {
   public:
-    Connection(asio::io_context& io, SessionOptions options, SessionListener listener)
+    Socket(asio::io_context& io, ConnectionOptions options, ConnectionListener listener)
         : options_(std::move(options)),
           listener_(std::move(listener)),
           strand_(asio::make_strand(io)),
@@ -260,15 +260,15 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
                                         error.message())});
     }
 
-    void end_with(const SessionEnd& how) {
+    void end_with(const ConnectionEnd& how) {
         if (!std::exchange(ended_, true)) {
             beast::get_lowest_layer(stream_).close();
             listener_.on_end(how);
         }
     }
 
-    SessionOptions options_;
-    SessionListener listener_;
+    ConnectionOptions options_;
+    ConnectionListener listener_;
     asio::strand<asio::io_context::executor_type> strand_;
     tcp::resolver resolver_;
     websocket::stream<beast::tcp_stream> stream_;
@@ -283,25 +283,27 @@ class Session::Connection : public std::enable_shared_from_this<Connection> {
     bool ended_ = false;
 };
 
-Session::Session(asio::io_context& io, SessionOptions options, SessionListener listener)
-    : connection_(std::make_shared<Connection>(io, std::move(options), std::move(listener))) {}
+RoomConnection::RoomConnection(asio::io_context& io,
+                               ConnectionOptions options,
+                               ConnectionListener listener)
+    : socket_(std::make_shared<Socket>(io, std::move(options), std::move(listener))) {}
 
-Session::~Session() = default;
+RoomConnection::~RoomConnection() = default;
 
-void Session::open() {
-    connection_->open();
+void RoomConnection::open() {
+    socket_->open();
 }
 
-std::uint64_t Session::send_edit(nlohmann::json patch) {
-    return connection_->send_edit(std::move(patch));
+std::uint64_t RoomConnection::send_edit(nlohmann::json patch) {
+    return socket_->send_edit(std::move(patch));
 }
 
-void Session::close() {
-    connection_->close();
+void RoomConnection::close() {
+    socket_->close();
 }
 
-asio::any_io_executor Session::executor() const {
-    return connection_->executor();
+asio::any_io_executor RoomConnection::executor() const {
+    return socket_->executor();
 }
 
 std::string random_room_name(const std::string& prefix) {
