@@ -1,14 +1,14 @@
 /** Controls of the environment as a whole: gain, tint, blend, rotation. */
-import { type FolderApi, Pane } from "tweakpane";
+import type { FolderApi } from "tweakpane";
 import type { EnvironmentEntry } from "./api";
 import { hexFromLinear, linearFromHex } from "./colour";
 import { stopsText } from "./format";
 import { understandKelvin } from "./kelvin";
-import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import { eulerFromQuaternion, kIdentity, quaternionFromEuler } from "./rotation";
 import type { RoomConnection } from "./room_connection";
-import type { JsonObject, RoomState } from "./wire/state";
+import { StatePane } from "./state_pane";
+import type { RoomState } from "./wire/state";
 
 /** At the lower end of its range the environment is off. */
 const kOffStops = -10;
@@ -25,29 +25,23 @@ export class EnvironmentPanel {
         pitch: 0,
         roll: 0,
     };
-    private readonly pane: Pane;
+    private readonly controls: StatePane;
     private readonly blendFolder: FolderApi;
-    private syncing = false;
-    private readonly syncSoon = onceAFrame(() => {
-        const { state } = this.connection;
-        if (state !== null) this.sync(state);
-    });
     private names: string[] = [];
 
     constructor(
         root: HTMLElement,
         private readonly connection: RoomConnection,
     ) {
-        this.pane = new Pane({ container: root });
+        this.controls = new StatePane(root, connection, (state) => this.show(state));
         this.addLightBindings();
-        this.blendFolder = this.pane.addFolder({ title: "Blend" });
+        this.blendFolder = this.controls.pane.addFolder({ title: "Blend" });
         this.addBlendBindings();
         this.addRotationBindings();
         labelFields(root);
         understandKelvin(root);
-        connection.stateChanged.listen(() => this.syncSoon());
         connection.statusChanged.listen(({ kind }) => {
-            this.pane.disabled = kind !== "open";
+            this.controls.pane.disabled = kind !== "open";
         });
     }
 
@@ -62,7 +56,8 @@ export class EnvironmentPanel {
     }
 
     private addLightBindings(): void {
-        const { pane, model } = this;
+        const { model } = this;
+        const { pane } = this.controls;
         pane.addBinding(model, "gain", {
             label: "gain EV",
             min: kOffStops,
@@ -71,12 +66,12 @@ export class EnvironmentPanel {
             format: (stops) => (stops <= kOffStops ? "off" : stopsText(stops)),
         }).on("change", () => {
             const gain = model.gain <= kOffStops ? 0 : 2 ** model.gain;
-            this.apply({ environment: { gain } });
+            this.controls.edit({ environment: { gain } });
         });
         const tint = pane.addBinding(model, "tint", { view: "color", picker: "inline" });
         tint.element.title = "A colour (#ffcc88) or a temperature (3200K)";
         tint.on("change", () => {
-            this.apply({ environment: { tint: linearFromHex(model.tint) } });
+            this.controls.edit({ environment: { tint: linearFromHex(model.tint) } });
         });
     }
 
@@ -86,19 +81,19 @@ export class EnvironmentPanel {
             this.names.map((name) => ({ text: name, value: name })),
         );
         blendFolder.addBinding(model, "blend", { label: "with", options }).on("change", () => {
-            if (model.blend === kNoBlend) this.apply({ blend: { name: null, amount: 0 } });
-            else this.apply({ blend: { name: model.blend } });
+            if (model.blend === kNoBlend) this.controls.edit({ blend: { name: null, amount: 0 } });
+            else this.controls.edit({ blend: { name: model.blend } });
         });
         blendFolder
             .addBinding(model, "amount", { min: 0, max: 1, step: 0.001 })
-            .on("change", () => this.apply({ blend: { amount: model.amount } }));
+            .on("change", () => this.controls.edit({ blend: { amount: model.amount } }));
     }
 
     private addRotationBindings(): void {
         const { model } = this;
-        const folder = this.pane.addFolder({ title: "Rotation" });
+        const folder = this.controls.pane.addFolder({ title: "Rotation" });
         const rotate = (): void => {
-            this.apply({ rotation: { quaternion: quaternionFromEuler(model) } });
+            this.controls.edit({ rotation: { quaternion: quaternionFromEuler(model) } });
         };
         for (const [key, limit] of [
             ["yaw", 180],
@@ -119,11 +114,7 @@ export class EnvironmentPanel {
         });
     }
 
-    private apply(patch: JsonObject): void {
-        if (!this.syncing) this.connection.edit(patch);
-    }
-
-    private sync(state: RoomState): void {
+    private show(state: RoomState): void {
         const { model } = this;
         const { gain, tint } = state.environment;
         model.gain = gain > 0 ? Math.log2(gain) : kOffStops;
@@ -131,8 +122,5 @@ export class EnvironmentPanel {
         model.blend = state.blend.name ?? kNoBlend;
         model.amount = state.blend.amount;
         Object.assign(model, eulerFromQuaternion(state.rotation.quaternion));
-        this.syncing = true;
-        this.pane.refresh();
-        this.syncing = false;
     }
 }

@@ -1,5 +1,4 @@
 /** The list of area lights and the controls of the selected one. */
-import { Pane } from "tweakpane";
 import type { AreaLights } from "./area_lights";
 import type { HexColour } from "./colour";
 import { make, setText } from "./dom";
@@ -8,9 +7,9 @@ import { understandKelvin } from "./kelvin";
 import { positionFromDirection, directionFromPosition } from "./lat_long";
 import { fieldsFromLevel, levelOfLight, texelRadiusDegrees } from "./light_level";
 import { LightList } from "./light_list";
-import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { RoomConnection } from "./room_connection";
+import { StatePane } from "./state_pane";
 import { type AreaLight, kRanges } from "./wire/state";
 
 const kMinStops = -12;
@@ -38,12 +37,7 @@ export class LightsPanel {
         azimuth: 0,
         elevation: 0,
     };
-    private readonly pane: Pane;
-    private syncing = false;
-    private readonly redrawSoon = onceAFrame(() => {
-        this.list.draw();
-        this.syncPane();
-    });
+    private readonly controls: StatePane;
 
     constructor(
         root: HTMLElement,
@@ -52,18 +46,21 @@ export class LightsPanel {
     ) {
         this.list = new LightList(root, lights);
         root.append(this.paneHost);
-        this.pane = new Pane({ container: this.paneHost });
+        this.controls = new StatePane(this.paneHost, connection, () => {
+            this.list.draw();
+            this.showSelected();
+        });
         this.addBindings();
         this.paneHost.append(this.remark);
         labelFields(this.paneHost);
         understandKelvin(this.paneHost);
-        connection.stateChanged.listen(() => this.redrawSoon());
-        connection.statusChanged.listen(() => this.redrawSoon());
-        lights.selectionChanged.listen(() => this.redrawSoon());
+        connection.statusChanged.listen(() => this.controls.showSoon());
+        lights.selectionChanged.listen(() => this.controls.showSoon());
     }
 
     private addBindings(): void {
-        const { pane, model } = this;
+        const { model } = this;
+        const { pane } = this.controls;
         const level = (): void => {
             this.apply(fieldsFromLevel(model, model.radius));
         };
@@ -85,14 +82,15 @@ export class LightsPanel {
             format: amountText,
         }).on("change", () => {
             const id = this.lights.selected;
-            if (!this.syncing && id !== null) this.lights.setRadius(id, model.radius);
+            if (id !== null)
+                this.controls.byHand(() => this.lights.setRadius(id, model.radius));
         });
         pane.addBinding(model, "keeps", {
             label: "resize keeps",
             options: { power: "power", radiance: "radiance" },
         }).on("change", () => {
             this.lights.keepsPower = model.keeps === "power";
-            this.syncPane();
+            this.controls.showSoon();
         });
         const aim = (): void => {
             const position = { u: model.azimuth / 360 + 0.5, v: 0.5 - model.elevation / 180 };
@@ -114,15 +112,15 @@ export class LightsPanel {
 
     private apply(fields: Partial<AreaLight>): void {
         const id = this.lights.selected;
-        if (!this.syncing && id !== null) this.lights.change(id, fields);
+        if (id !== null) this.controls.byHand(() => this.lights.change(id, fields));
     }
 
-    private syncPane(): void {
+    private showSelected(): void {
         const { selected } = this.lights;
         const light = selected === null ? undefined : this.lights.all[selected];
         this.paneHost.hidden = light === undefined;
         if (light === undefined) return;
-        this.pane.disabled = this.connection.status.kind !== "open";
+        this.controls.pane.disabled = this.connection.status.kind !== "open";
         const { model } = this;
         const { stops, colour } = levelOfLight(light);
         const { u, v } = positionFromDirection(light.direction);
@@ -134,9 +132,6 @@ export class LightsPanel {
         model.azimuth = u * 360 - 180;
         model.elevation = 90 - v * 180;
         setText(this.remark, this.remarkOn(light));
-        this.syncing = true;
-        this.pane.refresh();
-        this.syncing = false;
     }
 
     private remarkOn(light: AreaLight): string {

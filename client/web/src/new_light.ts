@@ -1,6 +1,7 @@
 /** What a light is like when it is added: part, place, and a level that fits the picture. */
 import { fieldsFromLevel, levelOfLight } from "./light_level";
-import type { AreaLight, Triple } from "./wire/state";
+import { clampTo } from "./wire/range";
+import { type AreaLight, kRanges, type Triple } from "./wire/state";
 
 interface Role {
     id: string;
@@ -105,5 +106,5 @@ export function newLight(
 
 export function nextOrder(lights: { [id: string]: AreaLight }): number {
     const orders = Object.values(lights).map((light) => light.order ?? 0);
-    return orders.length === 0 ? 0 : Math.min(1e9, Math.max(...orders) + 1);
+    return orders.length === 0 ? 0 : clampTo(kRanges.lights.order, Math.max(...orders) + 1);
 }

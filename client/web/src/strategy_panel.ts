@@ -1,10 +1,10 @@
 /** How the scene is relit: method, priority, budget. Few need it, so it is folded away. */
-import { type FolderApi, Pane } from "tweakpane";
+import type { FolderApi } from "tweakpane";
 import { make } from "./dom";
 import { percentText } from "./format";
-import { onceAFrame } from "./once_a_frame";
 import { labelFields } from "./pane_labels";
 import type { RoomConnection } from "./room_connection";
+import { StatePane } from "./state_pane";
 import type { JsonObject, RoomState, StrategyMethod, StrategyPriority } from "./wire/state";
 
 type BudgetKind = "milliseconds" | "coefficients";
@@ -25,25 +25,19 @@ export class StrategyPanel {
         coefficients: kDefaultCoefficients,
         target: 0,
     };
-    private readonly pane: Pane;
+    private readonly controls: StatePane;
     private readonly amounts: BudgetRows;
-    private syncing = false;
-    private readonly syncSoon = onceAFrame(() => {
-        const { state } = this.connection;
-        if (state !== null) this.sync(state);
-    });
 
     constructor(
         root: HTMLElement,
-        private readonly connection: RoomConnection,
+        connection: RoomConnection,
     ) {
-        this.pane = new Pane({ container: root });
-        const folder = this.pane.addFolder({ title: "Advanced", expanded: false });
+        this.controls = new StatePane(root, connection, (state) => this.show(state));
+        const folder = this.controls.pane.addFolder({ title: "Advanced", expanded: false });
         this.addStrategyBindings(folder);
         this.amounts = this.addBudgetBindings(folder);
         this.addTargetBinding(folder);
         labelFields(root);
-        connection.stateChanged.listen(() => this.syncSoon());
     }
 
     private addStrategyBindings(folder: FolderApi): void {
@@ -56,7 +50,7 @@ export class StrategyPanel {
                 "non-linear": "nwa",
             },
         });
-        method.on("change", () => this.apply({ strategy: { method: model.method } }));
+        method.on("change", () => this.controls.edit({ strategy: { method: model.method } }));
         explain(
             method,
             "Which parts of the light each image adds. Guarded begins anew only where that " +
@@ -70,7 +64,7 @@ export class StrategyPanel {
                 magnitude: "none",
             },
         });
-        priority.on("change", () => this.apply({ strategy: { priority: model.priority } }));
+        priority.on("change", () => this.controls.edit({ strategy: { priority: model.priority } }));
         explain(priority, "What comes first while the light moves; at rest all of it comes.");
     }
 
@@ -80,7 +74,7 @@ export class StrategyPanel {
             options: { "time per image": "milliseconds", coefficients: "coefficients" },
         });
         kind.on("change", () => {
-            this.apply({ budget: this.budgetPatch() });
+            this.controls.edit({ budget: this.budgetPatch() });
             this.showAmount();
         });
         explain(kind, "How much an image may cost: less is quicker and further from exact.");
@@ -91,7 +85,7 @@ export class StrategyPanel {
                 max: kMostMilliseconds,
                 step: 0.5,
             })
-            .on("change", () => this.apply({ budget: this.budgetPatch() }));
+            .on("change", () => this.controls.edit({ budget: this.budgetPatch() }));
         const coefficients = folder
             .addBinding(model, "coefficients", {
                 label: "count",
@@ -99,7 +93,7 @@ export class StrategyPanel {
                 max: kMostCoefficients,
                 step: 1,
             })
-            .on("change", () => this.apply({ budget: this.budgetPatch() }));
+            .on("change", () => this.controls.edit({ budget: this.budgetPatch() }));
         return { milliseconds, coefficients };
     }
 
@@ -112,7 +106,7 @@ export class StrategyPanel {
                 ...[1e-4, 1e-3, 0.01, 0.05].map((error) => [percentText(error), error]),
             ]) as { [text: string]: number },
         });
-        target.on("change", () => this.apply({ budget: { target_error: model.target } }));
+        target.on("change", () => this.controls.edit({ budget: { target_error: model.target } }));
         explain(target, "The error at which a resting image counts as settled.");
     }
 
@@ -123,16 +117,12 @@ export class StrategyPanel {
             : { coefficients: Math.round(model.coefficients), milliseconds: null };
     }
 
-    private apply(patch: JsonObject): void {
-        if (!this.syncing) this.connection.edit(patch);
-    }
-
     private showAmount(): void {
         this.amounts.milliseconds.hidden = this.model.budget !== "milliseconds";
         this.amounts.coefficients.hidden = this.model.budget !== "coefficients";
     }
 
-    private sync(state: RoomState): void {
+    private show(state: RoomState): void {
         const { model } = this;
         model.method = state.strategy.method;
         model.priority = state.strategy.priority;
@@ -142,9 +132,6 @@ export class StrategyPanel {
         if (typeof coefficients === "number") model.coefficients = coefficients;
         model.target = target_error;
         this.showAmount();
-        this.syncing = true;
-        this.pane.refresh();
-        this.syncing = false;
     }
 }
 

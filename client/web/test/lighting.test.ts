@@ -10,7 +10,8 @@ import {
 } from "../src/lighting";
 import { keysToForget, kMostKeptBytes, kMostKeptFiles } from "../src/upload_store";
 import { applyPatch } from "../src/wire/merge_patch";
-import type { AreaLight, Json, RoomState } from "../src/wire/state";
+import type { AreaLight, Json } from "../src/wire/state";
+import { stateWith } from "./states";
 
 function light(order: number, name?: string): AreaLight {
     return {
@@ -23,20 +24,6 @@ function light(order: number, name?: string): AreaLight {
         solo: false,
         order,
         ...(name === undefined ? {} : { name }),
-    };
-}
-
-function stateWith(change: Partial<RoomState> = {}): RoomState {
-    return {
-        environment: { name: "city", gain: 1, tint: [1, 1, 1] },
-        blend: { amount: 0 },
-        rotation: { quaternion: [1, 0, 0, 0] },
-        lights: {},
-        background: { mode: "environment", colour: [0, 0, 0] },
-        strategy: { method: "guarded", priority: "benefit" },
-        budget: { milliseconds: 8, target_error: 0 },
-        display: { exposure_stops: 0, tone: "filmic" },
-        ...change,
     };
 }
 

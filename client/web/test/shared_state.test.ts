@@ -2,33 +2,23 @@ import { describe, expect, it } from "vitest";
 import { SharedState } from "../src/shared_state";
 import type { Snapshot } from "../src/wire/message";
 import type { RoomState } from "../src/wire/state";
+import { stateWith } from "./states";
 
-function stateWith(gain: number): RoomState {
-    return {
-        environment: { name: "city", gain, tint: [1, 1, 1] },
-        blend: { amount: 0 },
-        rotation: { quaternion: [1, 0, 0, 0] },
-        lights: {},
-        background: { mode: "environment", colour: [0, 0, 0] },
-        strategy: { method: "guarded", priority: "benefit" },
-        budget: { milliseconds: 8, target_error: 0 },
-        display: { exposure_stops: 0, tone: "filmic" },
-    };
-}
+const lit = (gain: number): RoomState =>
+    stateWith({ environment: { name: "city", gain, tint: [1, 1, 1] } });
 
-function open(): SharedState {
-    const snapshot: Snapshot = {
-        type: "snapshot",
-        protocol: 1,
-        room: "r",
-        scene: { name: "s", width: 1, height: 1, face_resolution: 4 },
-        revision: 5,
-        state: stateWith(1),
-        viewers: 1,
-        limits: {},
-    };
-    return new SharedState(snapshot);
-}
+const snapshot = (revision: number, state: RoomState): Snapshot => ({
+    type: "snapshot",
+    protocol: 1,
+    room: "r",
+    scene: { name: "s", width: 1, height: 1, face_resolution: 4 },
+    revision,
+    state,
+    viewers: 1,
+    limits: {},
+});
+
+const open = (): SharedState => new SharedState(snapshot(5, lit(1)));
 
 const gain = (value: number) => ({ environment: { gain: value } });
 
@@ -72,7 +62,7 @@ describe("SharedState", () => {
         shared.queue(gain(-1));
         shared.expect(1, gain(-1));
         shared.refuse(1);
-        expect(shared.state).toEqual(stateWith(1));
+        expect(shared.state).toEqual(lit(1));
         expect(shared.hasPending).toBe(false);
     });
 
@@ -90,24 +80,13 @@ describe("SharedState", () => {
 });
 
 describe("isForgottenBy", () => {
-    const snapshot = (revision: number, state: RoomState): Snapshot => ({
-        type: "snapshot",
-        protocol: 1,
-        room: "r",
-        scene: { name: "s", width: 1, height: 1, face_resolution: 4 },
-        revision,
-        state,
-        viewers: 1,
-        limits: {},
-    });
-
     it("tells a room that began anew from one that went on", () => {
         const shared = open(); // revision 5
-        expect(shared.isForgottenBy(snapshot(0, stateWith(1)))).toBe(true);
-        expect(shared.isForgottenBy(snapshot(5, stateWith(2)))).toBe(true);
-        expect(shared.isForgottenBy(snapshot(5, stateWith(1)))).toBe(false);
-        expect(shared.isForgottenBy(snapshot(6, stateWith(2)))).toBe(false);
-        const { display, ...rest } = stateWith(1);
+        expect(shared.isForgottenBy(snapshot(0, lit(1)))).toBe(true);
+        expect(shared.isForgottenBy(snapshot(5, lit(2)))).toBe(true);
+        expect(shared.isForgottenBy(snapshot(5, lit(1)))).toBe(false);
+        expect(shared.isForgottenBy(snapshot(6, lit(2)))).toBe(false);
+        const { display, ...rest } = lit(1);
         const reordered = { display, ...rest };
         expect(shared.isForgottenBy(snapshot(5, reordered))).toBe(false);
     });

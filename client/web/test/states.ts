@@ -1,0 +1,17 @@
+/** States to test with. */
+import type { RoomState } from "../src/wire/state";
+
+/** The default state but for `change`. */
+export function stateWith(change: Partial<RoomState> = {}): RoomState {
+    return {
+        environment: { name: "city", gain: 1, tint: [1, 1, 1] },
+        blend: { amount: 0 },
+        rotation: { quaternion: [1, 0, 0, 0] },
+        lights: {},
+        background: { mode: "environment", colour: [0, 0, 0] },
+        strategy: { method: "guarded", priority: "benefit" },
+        budget: { milliseconds: 8, target_error: 0 },
+        display: { exposure_stops: 0, tone: "filmic" },
+        ...change,
+    };
+}
