@@ -44,8 +44,8 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                    "What the columns of the transport stand for: haar wavelets or sh, "
                    "spherical harmonics [haar]")
         ->transform(CLI::CheckedTransformer(kinds).description(""));
-    app.add_option("--order", p.order, "Of spherical harmonics: order² columns, 1 to 20")
-        ->capture_default_str();
+    app.add_option("--order", arguments.order,
+                   "Of spherical harmonics: order² columns, 1 to 20 [10]");
     app.add_option("--bounces", p.bounces,
                    "Reflections after the first surface; 0: direct light only")
         ->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include <CLI/App.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,7 @@ struct Arguments {
     std::string camera;
     bool list_cameras = false;
     std::string preview;
+    std::optional<std::uint32_t> order;  // of spherical harmonics
     BakeParameters parameters;
     // info, verify, relight
     std::string directory;

@@ -11,6 +11,7 @@
 #include "precompute/bake/report.h"
 #include "precompute/bake/verdict.h"
 #include "precompute/scene/builtin.h"
+#include "precompute/scene/error.h"
 #include "precompute/scene/import.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/near_files.h"
@@ -21,7 +22,9 @@
 #include <array>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 
 namespace relume::bake {
@@ -33,7 +36,14 @@ void request_stop(int /*signal*/) {
     stop_requested = true;
 }
 
-// `count` numbers with `separator` between them and nothing else.
+bool is_finite(double value) {
+    return std::isfinite(value);
+}
+bool is_finite(std::uint32_t /*value*/) {
+    return true;
+}
+
+// `count` finite numbers with `separator` between them and nothing else.
 template <typename T>
 std::vector<T> parse_list(const char* option,
                           const std::string& text,
@@ -46,7 +56,7 @@ std::vector<T> parse_list(const char* option,
     while (values.size() < count) {
         T value{};
         const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc{}) {
+        if (error != std::errc{} || !is_finite(value)) {
             break;
         }
         values.push_back(value);
@@ -66,12 +76,17 @@ std::optional<Imath::V3d> parse_point(const char* option, const std::string& tex
     if (text.empty()) {
         return std::nullopt;
     }
-    const auto values = parse_list<double>(option, text, ',', 3, "three numbers X,Y,Z");
+    const auto values = parse_list<double>(option, text, ',', 3, "three finite numbers X,Y,Z");
     return Imath::V3d(values[0], values[1], values[2]);
 }
 
 scene::ImportOptions import_options(const Arguments& arguments,
                                     const BakeParameters& parameters) {
+    if (arguments.fov_degrees &&
+        !(*arguments.fov_degrees > 0 && *arguments.fov_degrees < 180)) {
+        throw program::UsageError(fmt::format(
+            "--fov is {}, expected degrees above 0 and below 180", *arguments.fov_degrees));
+    }
     scene::ImportOptions options;
     options.camera = {.wanted = arguments.camera,
                       .eye = parse_point("--eye", arguments.eye),
@@ -83,6 +98,17 @@ scene::ImportOptions import_options(const Arguments& arguments,
     return options;
 }
 
+scene::Scene builtin_scene(const std::string& name) {
+    try {
+        return scene::build_builtin_scene(name);
+    } catch (const scene::SceneError& fault) {
+        if (fault.fault() == scene::SceneFault::unknown_name) {
+            throw program::UsageError(fault.what());
+        }
+        throw;
+    }
+}
+
 scene::Scene scene_of(const Arguments& arguments, const BakeParameters& parameters) {
     const scene::ImportOptions options = import_options(arguments, parameters);
     if (arguments.builtin.empty()) {
@@ -92,7 +118,7 @@ scene::Scene scene_of(const Arguments& arguments, const BakeParameters& paramete
         throw program::UsageError(
             "--up-axis is for scene files: in scenes made by code +Y is up");
     }
-    scene::Scene scene = scene::build_builtin_scene(arguments.builtin);
+    scene::Scene scene = builtin_scene(arguments.builtin);
     scene.camera = scene::placed_as_asked(options.camera, scene.camera);
     return scene;
 }
@@ -138,6 +164,14 @@ int run_bake(const Arguments& arguments) {
                                                     "two whole numbers WxH");
         parameters.width = size[0];
         parameters.height = size[1];
+    }
+    if (arguments.order) {
+        if (parameters.basis != basis::LightBasis::Kind::spherical_harmonics) {
+            throw program::UsageError(
+                fmt::format("--order is {}: wavelets have none, expected --basis sh beside it",
+                            *arguments.order));
+        }
+        parameters.order = *arguments.order;
     }
     check_parameters(parameters);
     if (!arguments.preview.empty()) {

@@ -1,6 +1,6 @@
 #include "precompute/bake/tile_window.h"
 
-#include "precompute/bake/error.h"
+#include "protocol/base/program/usage.h"
 #include "protocol/transport/format.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ TileWindow::TileWindow(const RayCaster& caster,
     const std::uint64_t bytes =
         rows * camera.width() * PathTracer::most_bytes(parameters.bounces, parameters.samples);
     if (parameters.bounces > 0 && bytes > kMaxPathBytes) {
-        throw BakeError(fmt::format(
+        throw program::UsageError(fmt::format(
             "samples is {}: {} rows of {} pixels would keep {} MiB of paths, expected at most "
             "{} MiB; take fewer samples, a smaller pool or a narrower image",
             parameters.samples, rows, camera.width(), bytes >> 20U, kMaxPathBytes >> 20U));

@@ -1,19 +1,18 @@
 #include "server/light/environment_import.h"
 
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "server/light/environment_error.h"
 #include "server/light/file_signature.h"
 #include "server/light/image_file.h"
 #include "server/light/texel_repair.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <iterator>
-#include <system_error>
+#include <span>
+#include <string>
 #include <utility>
 
 namespace relume::light {
@@ -98,64 +97,13 @@ void append(std::vector<std::string>& to, std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-class OpenFile {
-  public:
-    explicit OpenFile(const std::filesystem::path& path)
-        : fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-        struct stat status {};
-        if (fd_ < 0 || fstat(fd_, &status) != 0) {
-            const int error = errno;
-            throw EnvironmentError(std::generic_category().message(error));
-        }
-        if (!S_ISREG(status.st_mode)) {
-            refuse_image("path", "no file", "a regular file");
-        }
-        size_ = static_cast<std::size_t>(status.st_size);
-    }
-    ~OpenFile() {
-        if (fd_ >= 0) {
-            close(fd_);
-        }
-    }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-    OpenFile(OpenFile&&) = delete;
-    OpenFile& operator=(OpenFile&&) = delete;
-
-    [[nodiscard]] std::vector<std::byte> content() const {
-        if (size_ > kMaxLocalFileBytes) {
-            refuse_image("file", fmt::format("{} bytes long", size_),
-                         fmt::format("at most {}", kMaxLocalFileBytes));
-        }
-        return beginning(size_);
-    }
-
-    [[nodiscard]] std::vector<std::byte> beginning(std::size_t most_bytes) const {
-        std::vector<std::byte> bytes(std::min(size_, most_bytes));
-        std::size_t filled = 0;
-        while (filled < bytes.size()) {
-            const ssize_t count = read(fd_, bytes.data() + filled, bytes.size() - filled);
-            if (count < 0 && errno == EINTR) {
-                continue;
-            }
-            if (count <= 0) {
-                throw EnvironmentError("cannot be read");
-            }
-            filled += static_cast<std::size_t>(count);
-        }
-        return bytes;
-    }
-
-  private:
-    int fd_;
-    std::size_t size_ = 0;
-};
-
 // What `read` makes of the file; errors name it.
 template <typename Read>
 auto with_file(const std::filesystem::path& file, Read read) {
     try {
-        return read(OpenFile(file));
+        return read();
+    } catch (const files::FileError& e) {
+        throw EnvironmentError(e.what());
     } catch (const EnvironmentError& e) {
         throw EnvironmentError(fmt::format("{}: {}", file.string(), e.what()), e.found(),
                                e.expected());
@@ -201,15 +149,17 @@ ImportedEnvironment import_environment(std::span<const std::byte> file_bytes,
 
 ImportedEnvironment import_environment(const std::filesystem::path& file,
                                        const ImportOptions& options) {
-    return with_file(file, [&](const OpenFile& open_file) {
-        return import_environment(open_file.content(), options);
+    return with_file(file, [&] {
+        const std::string bytes = files::read_regular_file(file, kMaxLocalFileBytes);
+        return import_environment(std::as_bytes(std::span(bytes)), options);
     });
 }
 
 EnvironmentHeader read_environment_header(const std::filesystem::path& file,
                                           const ImportOptions& options) {
-    return with_file(file, [&](const OpenFile& open_file) {
-        const std::vector<std::byte> bytes = open_file.beginning(kMaxHeaderBytes);
+    return with_file(file, [&] {
+        const std::string beginning = files::read_beginning(file, kMaxHeaderBytes);
+        const auto bytes = std::as_bytes(std::span(beginning));
         const ImageSize size = require_image_format(bytes) == ImageFormat::radiance_hdr
                                    ? radiance_hdr_size(bytes)
                                    : exr_size(bytes, options.layer);

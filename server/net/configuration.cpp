@@ -1,5 +1,7 @@
 #include "server/net/configuration.h"
 
+#include "protocol/base/files/error.h"
+#include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/program.h"
 #include "protocol/base/text/near_names.h"
 
@@ -8,7 +10,6 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -226,17 +227,19 @@ std::vector<std::string> keys_of(const CLI::App& app) {
     return keys;
 }
 
+std::vector<CLI::ConfigItem> items_of_file(const std::filesystem::path& path) {
+    try {
+        std::istringstream text(files::read_regular_file(path, kMaxConfigurationBytes));
+        return CLI::ConfigTOML().from_config(text);
+    } catch (const files::FileError& failure) {
+        throw CLI::FileError(std::string("--config: ") + failure.what());
+    }
+}
+
 // Fills in what neither flags nor variables set. CLI11's own order puts the file before the
 // variables.
 void read_configuration_file(CLI::App& app, const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw CLI::FileError("--config: cannot read " + path.string());
-    }
-    if (std::filesystem::file_size(path) > kMaxConfigurationBytes) {
-        throw CLI::FileError("--config: " + path.string() + " is too large");
-    }
-    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(file)) {
+    for (const CLI::ConfigItem& item : items_of_file(path)) {
         if (item.name == "++" || item.name == "--") {
             continue;  // marks of sections
         }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
@@ -75,28 +76,36 @@ void require_regular_file(const std::filesystem::path& path) {
     static_cast<void>(open_regular_file(path));
 }
 
-std::string read_regular_file(const std::filesystem::path& path,
-                              std::size_t max_bytes,
-                              Links links) {
+std::string read_beginning(const std::filesystem::path& path,
+                           std::size_t most_bytes,
+                           Links links) {
     const Descriptor file = open_regular_file(path, links);
     constexpr std::size_t kChunk = std::size_t{64} << 10;
     std::string bytes;
-    for (;;) {
+    while (bytes.size() < most_bytes) {
         const std::size_t filled = bytes.size();
-        bytes.resize(filled + kChunk);
-        const ssize_t count = ::read(file.get(), bytes.data() + filled, kChunk);
+        bytes.resize(filled + std::min(kChunk, most_bytes - filled));
+        const ssize_t count = ::read(file.get(), bytes.data() + filled, bytes.size() - filled);
         if (count < 0 && errno != EINTR) {
             fail(path, "read");
         }
         bytes.resize(filled + static_cast<std::size_t>(count > 0 ? count : 0));
-        if (bytes.size() > max_bytes) {
-            throw FileError(fmt::format("{}: found more than {} bytes, expected at most that",
-                                        path.string(), max_bytes));
-        }
         if (count == 0) {
-            return bytes;
+            break;
         }
     }
+    return bytes;
+}
+
+std::string read_regular_file(const std::filesystem::path& path,
+                              std::size_t max_bytes,
+                              Links links) {
+    std::string bytes = read_beginning(path, max_bytes + 1, links);
+    if (bytes.size() > max_bytes) {
+        throw FileError(fmt::format("{}: found more than {} bytes, expected at most that",
+                                    path.string(), max_bytes));
+    }
+    return bytes;
 }
 
 }  // namespace relume::files

@@ -21,6 +21,11 @@ enum class Links { follow, refuse };
 // For libraries that open files by name: throws as open_regular_file does.
 void require_regular_file(const std::filesystem::path& path);
 
+// The first bytes of the file, at most so many. Throws FileError.
+[[nodiscard]] std::string read_beginning(const std::filesystem::path& path,
+                                         std::size_t most_bytes,
+                                         Links links = Links::follow);
+
 // All bytes of the file. Throws FileError, also when it is longer than `max_bytes`.
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path,
                                             std::size_t max_bytes,

@@ -1,5 +1,7 @@
 #include "precompute/bake/commands.h"
 #include "precompute/bake/image_file.h"
+#include "protocol/base/program/program.h"
+#include "protocol/base/program/usage.h"
 #include "tests/support/scratch_directory.h"
 
 #include <CLI/CLI.hpp>
@@ -24,6 +26,9 @@ class Command : public testing::Test {
         try {
             app.parse(words);
             return run_command(app, arguments);
+        } catch (const program::UsageError& error) {
+            fault_ = error.what();
+            return program::kWrongUsage;
         } catch (const std::exception& error) {
             fault_ = error.what();
             return 1;
@@ -89,6 +94,31 @@ TEST_F(Command, NamesWhatIsWrongWithTheWords) {
     expect_fault(with({"--bounces", "-1"}), "-1");
     expect_fault(with({"--no-such-flag"}), "no-such-flag");
     EXPECT_FALSE(std::filesystem::exists(file("x") + "/manifest.json"));
+}
+
+// Words that no scene could make right, whatever is wrong with them.
+TEST_F(Command, WrongWordsEndWithTwo) {
+    const std::vector<std::vector<std::string>> wrong{
+        {"--builtin", "castle"},
+        {"--builtin", "plane", "--eye", "nan,0,0"},
+        {"--builtin", "plane", "--look-at", "0,0,inf"},
+        {"--builtin", "plane", "--up", "0,-inf,0"},
+        {"--builtin", "plane", "--eye", "1e999,0,0"},
+        {"--builtin", "plane", "--fov", "nan"},
+        {"--builtin", "plane", "--fov", "inf"},
+        {"--builtin", "plane", "--fov", "180"},
+        {"--builtin", "plane", "--shrinkage", "nan"},
+        {"--builtin", "plane", "--samples", "1048577"},
+        {"--builtin", "plane", "--samples", "1048576", "--size", "4096x4096"},
+        {"--builtin", "plane", "--order", "5"},
+        {"--builtin", "plane", "--order", "5", "--basis", "haar"},
+        {"--builtin", "plane", "--order", "21", "--basis", "sh"},
+    };
+    for (std::vector<std::string> words : wrong) {
+        words.insert(words.end(), {"-o", file("wrong")});
+        EXPECT_EQ(run(words), program::kWrongUsage) << words[1] << " " << words[2] << fault_;
+    }
+    EXPECT_FALSE(std::filesystem::exists(file("wrong.relume") + "/manifest.json"));
 }
 
 TEST_F(Command, RefusesLightsThatDoNotFit) {

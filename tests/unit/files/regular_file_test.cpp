@@ -60,6 +60,17 @@ TEST_F(RegularFile, NothingElseIsOpenedAndNothingIsWaitedFor) {
     EXPECT_EQ(refusal(socket_path), socket_path + ": found a socket, expected a regular file");
 }
 
+TEST_F(RegularFile, ItsBeginningIsReadAndNoMore) {
+    const std::string text(std::size_t{200} << 10, 'x');
+    std::ofstream(path_) << text;
+    EXPECT_EQ(read_beginning(path_, 0), "");
+    EXPECT_EQ(read_beginning(path_, 5), "xxxxx");
+    EXPECT_EQ(read_beginning(path_, std::size_t{100} << 10), text.substr(0, 100 << 10));
+    EXPECT_EQ(read_beginning(path_, std::size_t{1} << 20), text);
+    EXPECT_EQ(read_regular_file(path_, text.size()), text);
+    EXPECT_THROW(static_cast<void>(read_regular_file(path_, text.size() - 1)), FileError);
+}
+
 TEST_F(RegularFile, LinksAreFollowedOnlyWhereAsked) {
     std::ofstream(path_) << "x";
     const auto link = scratch_.path() / "link";

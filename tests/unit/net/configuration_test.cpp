@@ -3,6 +3,7 @@
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -103,6 +104,17 @@ TEST_F(ConfigurationTest, MistakesNameTheOptionAndWhatWasExpected) {
               std::string::npos);
     EXPECT_NE(mistake({"--config", write_file("max-rooms = 0\n")}).find("max-rooms"),
               std::string::npos);
+}
+
+// A pipe that nobody writes to would be waited for without end.
+TEST_F(ConfigurationTest, TheFileIsARegularOneAndBounded) {
+    const std::string pipe = write_file("") + ".pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_NE(mistake({"--config", pipe}).find("found a named pipe"), std::string::npos);
+    EXPECT_NE(mistake({"--config", "/tmp"}).find("found a directory"), std::string::npos);
+    EXPECT_NE(mistake({"--config", "/dev/zero"}).find("found a device"), std::string::npos);
+    const std::string large = write_file("#" + std::string(std::size_t{2} << 20, '#') + "\n");
+    EXPECT_NE(mistake({"--config", large}).find("at most"), std::string::npos);
 }
 
 TEST_F(ConfigurationTest, HelpAndVersionEndWell) {
