@@ -50,6 +50,17 @@ float LightBasis::octave_from_band(std::uint32_t band) const {
     return kind_ == Kind::haar ? frequency : std::log2(std::max(frequency, 1.0F));
 }
 
+Bands LightBasis::bands() const {
+    Bands bands;
+    for (std::size_t j = 0; j < coefficient_count(); ++j) {
+        bands.of_coefficient.push_back(static_cast<std::uint8_t>(band_from_coefficient(j)));
+    }
+    for (std::uint32_t band = 0; band < band_count(); ++band) {
+        bands.octaves.push_back(octave_from_band(band));
+    }
+    return bands;
+}
+
 std::vector<LightBasis::Term> LightBasis::constant_light() const {
     if (kind_ == Kind::spherical_harmonics) {
         return {{.coefficient = 0, .value = std::sqrt(4 * std::numbers::pi_v<float>)}};

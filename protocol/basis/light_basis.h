@@ -1,6 +1,7 @@
 // The basis that the lighting of a transport is written in: one noun, two kinds.
 #pragma once
 
+#include "protocol/basis/bands.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/spherical_harmonics.h"
 
@@ -10,8 +11,7 @@
 
 namespace relume::basis {
 
-// Most bands any basis has: those of spherical harmonics of the largest order.
-inline constexpr std::uint32_t kMaxBands = kMaxShOrder;
+static_assert(kMaxShOrder <= kMaxBands);
 
 // A value; what follows from it alone. cubemap_projection.h goes from texels to coefficients.
 class LightBasis {
@@ -41,6 +41,8 @@ class LightBasis {
     // log₂ of the band's angular frequency, relative to that of band 0: what falls off as a
     // power of frequency in light and transport falls off exponentially with it.
     [[nodiscard]] float octave_from_band(std::uint32_t band) const;
+
+    [[nodiscard]] Bands bands() const;
 
     // Coefficients of radiance 1 from everywhere that are not zero, by index.
     struct Term {

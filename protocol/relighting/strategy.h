@@ -3,6 +3,7 @@
 
 #include "protocol/base/text/name_table.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -17,6 +18,7 @@ enum class Method : std::uint8_t { nwa, bi, pbi, guarded };
 
 // What a coefficient's change is weighted with to rank it: ColumnTable::weights.
 enum class Priority : std::uint8_t { area, none, transport, benefit };
+inline constexpr std::size_t kPriorityCount = 4;
 
 inline constexpr text::NameTable<Method, 4> kMethodNames({{
     {Method::nwa, "nwa"},
@@ -25,7 +27,7 @@ inline constexpr text::NameTable<Method, 4> kMethodNames({{
     {Method::guarded, "guarded"},
 }});
 
-inline constexpr text::NameTable<Priority, 4> kPriorityNames({{
+inline constexpr text::NameTable<Priority, kPriorityCount> kPriorityNames({{
     {Priority::area, "area"},
     {Priority::none, "none"},
     {Priority::transport, "transport"},

@@ -1,16 +1,13 @@
 #include "protocol/transport/column_summary.h"
 
 #include "protocol/transport/error.h"
-#include "protocol/transport/hash.h"
 #include "protocol/transport/receiver_basis.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace relume::transport {
@@ -18,69 +15,6 @@ namespace {
 
 constexpr std::uint64_t kStatingSeed = 0x736b65746368;       // "sketch"
 constexpr std::uint64_t kChoosingSeed = 0x63686f6f73696e67;  // "choosing"
-
-// Where a receiver adds to a sketch, and with which sign.
-struct SketchPlace {
-    std::uint16_t row = 0;
-    float sign = 1;
-};
-
-// A sketch's rows and where every receiver adds to them.
-struct SketchPlan {
-    std::uint32_t rows = 0;
-    std::vector<SketchPlace> places;
-
-    SketchPlan(std::uint32_t row_count, std::uint64_t seed, std::size_t receivers)
-        : rows(row_count), places(receivers) {
-        for (std::size_t p = 0; p < receivers; ++p) {
-            const std::uint64_t bits = mix_bits(mix_bits(seed) ^ p);
-            places[p] = {.row = static_cast<std::uint16_t>((bits >> 1) % rows),
-                         .sign = (bits & 1U) != 0 ? 1.0F : -1.0F};
-        }
-    }
-
-    [[nodiscard]] SketchTable empty_table(std::size_t columns) const {
-        return {.scales = std::vector<float>(columns * kColours),
-                .values = std::vector<std::int8_t>(columns * kColours * rows)};
-    }
-};
-
-// The sketch of one column at a time.
-class ColumnSketch {
-  public:
-    explicit ColumnSketch(const SketchPlan& plan)
-        : plan_(plan), sums_(kColours * std::size_t{plan.rows}) {}
-
-    void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
-    void add(std::size_t colour, std::size_t receiver, double value) {
-        const SketchPlace& place = plan_.places[receiver];
-        sums_[colour * plan_.rows + place.row] += double{place.sign} * value;
-    }
-    // Rounded to 8 bits, the largest value of each colour to the largest integer: noise of a
-    // hundredth of the value, where the estimate itself is good to a twentieth.
-    void store(std::size_t column, SketchTable& table) const {
-        constexpr double kLargestInteger = std::numeric_limits<std::int8_t>::max();
-        const std::size_t rows = plan_.rows;
-        for (std::size_t c = 0; c < kColours; ++c) {
-            const std::span<const double> sums = std::span(sums_).subspan(c * rows, rows);
-            double largest = 0;
-            for (const double value : sums) {
-                largest = std::max(largest, std::abs(value));
-            }
-            const std::size_t place = column * kColours + c;
-            const auto scale = static_cast<float>(largest / kLargestInteger);
-            table.scales[place] = scale;
-            for (std::size_t r = 0; r < rows && scale > 0; ++r) {
-                table.values[place * rows + r] = static_cast<std::int8_t>(
-                    std::clamp(std::round(sums[r] / scale), -kLargestInteger, kLargestInteger));
-            }
-        }
-    }
-
-  private:
-    const SketchPlan& plan_;
-    std::vector<double> sums_;  // [3][rows]
-};
 
 // Sums one column at a time; holds what is reused from column to column.
 class ColumnSummer {

@@ -3,17 +3,13 @@
 
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/shard_reader.h"
+#include "protocol/transport/sketch_builder.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace relume::transport {
-
-struct SketchTable {
-    std::vector<float> scales;        // [N][3]
-    std::vector<std::int8_t> values;  // [N][3][rows]
-};
 
 struct ColumnSummary {
     std::vector<float> energies;              // [N][3]
@@ -24,11 +20,7 @@ struct ColumnSummary {
 
 // Steps [N][K], tint [blocks][3][256]. Parallel over columns; the same result on any number of
 // threads. Throws TransportError when a column passes 4 GiB.
-//
-// Both are count sketches [Charikar02]: every pixel adds to one row of R with one sign, so one
-// costs one addition per non-zero, R times fewer than dense random signs, and the estimate of
-// ‖T ΔL‖² it gives is unbiased with relative variance at most 2/R, as theirs. Rows and signs of
-// the two are independent.
+// The sketches are of independent rows and signs.
 [[nodiscard]] ColumnSummary summarise_columns(const Manifest& manifest,
                                               std::span<const ShardReader> shards,
                                               std::span<const float> steps,

@@ -4,6 +4,7 @@
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/mapped_file.h"
 #include "protocol/transport/shard_reader.h"
+#include "protocol/transport/sketch.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,37 +13,6 @@
 #include <vector>
 
 namespace relume::transport {
-
-// Random combinations of the rows of the transport: S·T, `rows()` numbers a column and colour.
-class Sketch {
-  public:
-    Sketch() = default;
-    // Scales [N][3], values [N][3][rows].
-    Sketch(std::uint32_t rows,
-           std::span<const float> scales,
-           std::span<const std::int8_t> values)
-        : rows_(rows), scales_(scales), values_(values) {}
-
-    [[nodiscard]] std::uint32_t rows() const { return rows_; }
-    // Integers, times the scale.
-    [[nodiscard]] std::span<const std::int8_t> values(std::size_t column,
-                                                      std::uint32_t colour) const {
-        return values_.subspan(first_value(column, colour), rows_);
-    }
-    // All of them, [N][3][rows], and where those of a column and colour begin.
-    [[nodiscard]] std::span<const std::int8_t> table() const { return values_; }
-    [[nodiscard]] std::size_t first_value(std::size_t column, std::uint32_t colour) const {
-        return (column * kColours + colour) * rows_;
-    }
-    [[nodiscard]] float scale(std::size_t column, std::uint32_t colour) const {
-        return scales_[column * kColours + colour];
-    }
-
-  private:
-    std::uint32_t rows_ = 0;
-    std::span<const float> scales_;
-    std::span<const std::int8_t> values_;
-};
 
 // Safe to share between threads.
 class Transport {
@@ -65,10 +35,13 @@ class Transport {
     [[nodiscard]] float energy(std::size_t column, std::uint32_t colour) const {
         return energies_[column * kColours + colour];
     }
-    // Bytes of column j in all shards.
+    // Of all columns, [N][3].
+    [[nodiscard]] std::span<const float> energies() const { return energies_; }
+    // Bytes of column j in all shards, and of every column, [N].
     [[nodiscard]] std::uint32_t column_bytes(std::size_t column) const {
         return column_bytes_[column];
     }
+    [[nodiscard]] std::span<const std::uint32_t> column_bytes() const { return column_bytes_; }
     [[nodiscard]] std::uint64_t total_bytes() const { return total_bytes_; }
 
     // [blocks][256], in [0, 1].

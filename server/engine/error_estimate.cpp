@@ -4,8 +4,8 @@
 
 namespace relume::engine {
 
-ErrorEstimate::ErrorEstimate(const Scene& scene)
-    : target_(scene, scene.transport().stating_sketch()), approximation_(target_) {}
+ErrorEstimate::ErrorEstimate(const ColumnTable& table)
+    : target_(table, table.stating_sketch()), approximation_(target_) {}
 
 double ErrorEstimate::relative_l2() const {
     double squared_difference = 0;

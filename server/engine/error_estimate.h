@@ -2,8 +2,8 @@
 // estimated from the sketch of the transport at a cost independent of the image's size.
 #pragma once
 
-#include "server/engine/band_sketches.h"
-#include "server/engine/scene.h"
+#include "server/engine/choosing/band_sketches.h"
+#include "server/engine/columns/column_table.h"
 
 #include <span>
 
@@ -15,16 +15,16 @@ namespace relume::engine {
 // minimised is no longer an unbiased witness. Not thread-safe.
 class ErrorEstimate {
   public:
-    explicit ErrorEstimate(const Scene& scene);
+    explicit ErrorEstimate(const ColumnTable& table);
 
     // A target need hold only what counts of it; what is shown must be whole, for it may be far
     // brighter than the next target.
-    void set_target(const LitColumns& target) { target_.set(target); }
-    void set_approximation(const LitColumns& shown) { approximation_.set(shown); }
+    void set_target(const SignificantColumns& target) { target_.set(target); }
+    void set_approximation(const SignificantColumns& shown) { approximation_.set(shown); }
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { approximation_.apply(plan); }
     // L̃ is now this target, whole.
-    void approximation_is_target(const LitColumns& target) {
+    void approximation_is_target(const SignificantColumns& target) {
         target_.set(target);
         approximation_ = target_;
     }

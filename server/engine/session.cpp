@@ -53,20 +53,20 @@ class Stopwatch {
 
 }  // namespace
 
-Session::Session(std::shared_ptr<const Scene> scene, relighting::Strategy strategy)
-    : scene_(std::move(scene)),
+Session::Session(std::shared_ptr<const Workspace> workspace, relighting::Strategy strategy)
+    : workspace_(std::move(workspace)),
       strategy_(strategy),
-      lighting_(*scene_),
-      lit_(*scene_),
-      planner_(*scene_),
-      images_(*scene_),
-      error_(*scene_),
-      full_product_(*scene_) {}
+      signal_(workspace_->columns()),
+      significant_(workspace_->columns()),
+      planner_(workspace_->columns()),
+      sums_(workspace_->transport_operator()),
+      error_(workspace_->columns()),
+      full_product_(workspace_->transport_operator(), workspace_->spare_sums()) {}
 
-void Session::set_lighting(std::span<const float> coefficients) {
-    lighting_.set_target(coefficients);
+void Session::set_target(std::span<const float> coefficients) {
+    signal_.set_target(coefficients);
     full_product_.abandon();
-    lighting_is_new_ = true;
+    target_is_new_ = true;
     exact_ = false;
 }
 
@@ -75,49 +75,49 @@ double Session::stated_error() const {
 }
 
 bool Session::at_rest(const relighting::Budget& budget) const {
-    return exact_ || (!lighting_is_new_ && budget.target_error > 0 &&
+    return exact_ || (!target_is_new_ && budget.target_error > 0 &&
                       error_.relative_l2() <= budget.target_error);
 }
 
 StepReport Session::advance(const relighting::Budget& budget) {
-    SessionTurn turn{.session = this, .budget = budget, .report = {}};
-    advance_together({&turn, 1});
-    return turn.report;
+    SessionStep step{.session = this, .budget = budget, .report = {}};
+    advance_together({&step, 1});
+    return step.report;
 }
 
-void Session::advance_together(std::span<SessionTurn> turns) {
-    PerSession<Intent> intents(turns.size());
-    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
+void Session::advance_together(std::span<SessionStep> steps) {
+    PerSession<Decision> decisions(steps.size());
+    tbb::parallel_for(std::size_t{0}, steps.size(), [&](std::size_t i) {
         // Times what it does: others' work must not slip in between.
         tbb::this_task_arena::isolate([&] {
-            intents[i] = turns[i].session->intend(
-                {.budget = turns[i].budget,
-                 .sessions = turns.size(),
-                 .ceiling_milliseconds = turns[i].ceiling_milliseconds});
+            decisions[i] = steps[i].session->decide(
+                {.budget = steps[i].budget,
+                 .sessions = steps.size(),
+                 .ceiling_milliseconds = steps[i].ceiling_milliseconds});
         });
     });
-    PerSession<PlannedTurn> planned;
-    PerSession<SessionTurn*> products;
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        turns[i].report = {};
-        if (intents[i].deed == Deed::plan) {
-            planned.push_back({turns[i].session, intents[i].plan, &turns[i].report});
-        } else if (intents[i].deed == Deed::full_product) {
-            products.push_back(&turns[i]);
+    PerSession<PlannedStep> planned;
+    PerSession<SessionStep*> products;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        steps[i].report = {};
+        if (decisions[i].work == Work::plan) {
+            planned.push_back({steps[i].session, decisions[i].plan, &steps[i].report});
+        } else if (decisions[i].work == Work::full_product) {
+            products.push_back(&steps[i]);
         }
     }
     carry_out(std::span(planned.data(), planned.size()));
-    advance_full_products(std::span(products.data(), products.size()), turns.size());
-    for (SessionTurn& turn : turns) {
-        turn.session->state(turn.report);
+    advance_full_products(std::span(products.data(), products.size()), steps.size());
+    for (SessionStep& step : steps) {
+        step.session->state(step.report);
     }
 }
 
 StepReport Session::advance_incrementally(const SelectionBudget& budget) {
     StepReport report;
     if (!exact_) {
-        const PlannedTurn turn{this, &next_plan(budget), &report};
-        carry_out({&turn, 1});
+        const PlannedStep step{this, &next_plan(budget), &report};
+        carry_out({&step, 1});
     }
     state(report);
     return report;
@@ -127,88 +127,89 @@ void Session::state(StepReport& report) const {
     report.remaining = exact_ ? 0 : remaining_;
     report.exact = exact_;
     report.stated_error = stated_error();
-    report.band_bytes = images_.bytes_of_bands();
+    report.band_bytes = sums_.bytes_of_bands();
 }
 
-Session::Intent Session::intend(const Share& share) {
-    if (at_rest(share.budget)) {
+Session::Decision Session::decide(const Allowance& allowance) {
+    if (at_rest(allowance.budget)) {
         return {};
     }
-    if (lighting_is_new_ ? shows_lighting_before() || full_product_fits_one_image(share)
-                         : full_product_is_next(share)) {
-        return {.deed = Deed::full_product, .plan = nullptr};
+    if (target_is_new_ ? shows_target_before() || full_product_fits_one_image(allowance)
+                       : full_product_is_next(allowance)) {
+        return {.work = Work::full_product, .plan = nullptr};
     }
-    return {.deed = Deed::plan, .plan = &next_plan(selection_budget(share))};
+    return {.work = Work::plan, .plan = &next_plan(selection_budget(allowance))};
 }
 
 const Plan& Session::next_plan(const SelectionBudget& budget) {
     const Stopwatch stopwatch;
-    if (!lighting_is_new_) {
-        const Plan& plan = planner_.go_on(lighting_, strategy_, budget);
+    if (!target_is_new_) {
+        const Plan& plan = planner_.go_on(signal_, strategy_, budget);
         cost_.record_overhead(stopwatch.milliseconds());
         return plan;
     }
-    lighting_is_new_ = false;
+    target_is_new_ = false;
     double expected_error = error_.relative_l2();
     if (estimates_are_stale_) {
         expected_error = 0;
-        lit_.set(lighting_.approximation());
-        error_.set_approximation(lit_);
+        significant_.set(signal_.approximation());
+        error_.set_approximation(significant_);
         planner_.approximation_is_unknown();
         estimates_are_stale_ = false;
     }
     set_target_of_estimates(expected_error);
-    const Plan& plan = planner_.begin(lighting_, lit_, strategy_, budget);
+    const Plan& plan = planner_.begin(signal_, significant_, strategy_, budget);
     cost_.record_overhead(stopwatch.milliseconds());
     return plan;
 }
 
-SelectionBudget Session::selection_budget(const Share& share) const {
-    if (share.budget.coefficients) {
-        const std::uint64_t all = scene_->transport().total_bytes();
-        const bool ceiled = std::isfinite(share.ceiling_milliseconds);
-        return {.columns = *share.budget.coefficients,
-                .bytes = ceiled ? std::min(all, cost_.bytes_within(share.ceiling_milliseconds,
-                                                                   share.sessions))
-                                : all};
+SelectionBudget Session::selection_budget(const Allowance& allowance) const {
+    if (allowance.budget.coefficients) {
+        const std::uint64_t all = workspace_->columns().total_bytes();
+        const bool ceiled = std::isfinite(allowance.ceiling_milliseconds);
+        return {.columns = *allowance.budget.coefficients,
+                .bytes = ceiled
+                             ? std::min(all, cost_.bytes_within(allowance.ceiling_milliseconds,
+                                                                allowance.sessions))
+                             : all};
     }
     const double milliseconds =
-        std::min(share.budget.milliseconds.value_or(0), share.ceiling_milliseconds);
-    return {.columns = static_cast<std::uint32_t>(scene_->coefficient_count()),
-            .bytes = cost_.bytes_within(milliseconds, share.sessions)};
+        std::min(allowance.budget.milliseconds.value_or(0), allowance.ceiling_milliseconds);
+    return {.columns = static_cast<std::uint32_t>(workspace_->columns().count()),
+            .bytes = cost_.bytes_within(milliseconds, allowance.sessions)};
 }
 
-void Session::carry_out(std::span<const PlannedTurn> turns) {
+void Session::carry_out(std::span<const PlannedStep> steps) {
     const Stopwatch stopwatch;
     std::uint64_t bytes = 0;
-    for (std::size_t first = 0; first < turns.size(); first += kMaxBatchMembers) {
+    for (std::size_t first = 0; first < steps.size(); first += kMaxBatchMembers) {
         const auto batch =
-            turns.subspan(first, std::min(kMaxBatchMembers, turns.size() - first));
-        PerSession<BandImages::Update> updates;
-        for (const PlannedTurn& turn : batch) {
-            updates.push_back({.images = &turn.session->images_,
-                               .bands_to_clear = turn.plan->bands_to_reset,
-                               .changes = turn.plan->changes});
+            steps.subspan(first, std::min(kMaxBatchMembers, steps.size() - first));
+        PerSession<BandSums::Update> updates;
+        for (const PlannedStep& step : batch) {
+            updates.push_back({.sums = &step.session->sums_,
+                               .bands_to_clear = step.plan->bands_to_reset,
+                               .changes = step.plan->changes});
         }
-        BandImages::update_together(std::span(updates.data(), updates.size()));
-        for (const PlannedTurn& turn : batch) {
-            bytes += turn.session->images_.bytes_added();
+        BandSums::update_together(std::span(updates.data(), updates.size()));
+        for (const PlannedStep& step : batch) {
+            bytes += step.session->sums_.bytes_added();
         }
     }
     const double taken = stopwatch.milliseconds();
-    for (const PlannedTurn& turn : turns) {
-        turn.session->cost_.record_columns(bytes, taken);
+    for (const PlannedStep& step : steps) {
+        step.session->cost_.record_columns(bytes, taken);
     }
-    tbb::parallel_for(std::size_t{0}, turns.size(), [&](std::size_t i) {
-        turns[i].session->plan_is_carried_out(*turns[i].plan, *turns[i].report);
+    tbb::parallel_for(std::size_t{0}, steps.size(), [&](std::size_t i) {
+        steps[i].session->plan_is_carried_out(*steps[i].plan, *steps[i].report);
     });
 }
 
 void Session::set_target_of_estimates(double expected_error) {
     negligible_ = std::clamp(expected_error / (kErrorMayFall * kLeastTelling),
                              kSurelyNegligible, kLargestNegligible);
-    lit_.set_nearly(lighting_.target(), negligible_);
-    error_.set_target(lit_);
+    significant_.set_nearly(signal_.target(), negligible_);
+    error_.set_target(significant_);
 }
 
 void Session::refine_estimates() {
@@ -219,96 +220,97 @@ void Session::refine_estimates() {
 }
 
 void Session::plan_is_carried_out(const Plan& plan, StepReport& report) {
-    lighting_.apply(plan);
+    signal_.apply(plan);
     error_.apply(plan);
     planner_.apply(plan);
     refine_estimates();
     remaining_ = plan.remaining_columns();
     report.applied = static_cast<std::uint32_t>(plan.changes.size());
     report.bands_reset = plan.bands_to_reset;
-    report.bytes_touched += images_.bytes_added();
+    report.bytes_touched += sums_.bytes_added();
     report.image_changed = plan.bands_to_reset != 0 || !plan.changes.empty();
     remove_drift(report);
 }
 
 void Session::remove_drift(StepReport& report) {
     const double shown = error_.shown_norm();
-    if (images_.rounding_error_of_total() > kLargestDriftOfTotal * shown) {
-        images_.renew_total();
+    if (sums_.rounding_error_of_total() > kLargestDriftOfTotal * shown) {
+        sums_.renew_total();
     }
-    if (images_.rounding_error_of_bands() <= kLargestDriftOfBands * shown) {
+    if (sums_.rounding_error_of_bands() <= kLargestDriftOfBands * shown) {
         return;
     }
-    const std::uint32_t band = images_.most_drifted_band();
-    scene_->strips().set_weights(scene_->transport(), lighting_.approximation(),
-                                 renewing_weights_);
-    images_.renew_band(band, renewing_weights_);
-    for (const std::uint32_t column : scene_->columns_of_band(band)) {
-        report.bytes_touched += scene_->transport().column_bytes(column);
+    const std::uint32_t band = sums_.most_drifted_band();
+    workspace_->transport_operator().set_weights(signal_.approximation(), renewing_weights_);
+    sums_.renew_band(band, renewing_weights_);
+    for (const std::uint32_t column : workspace_->columns().of_band(band)) {
+        report.bytes_touched += workspace_->columns().bytes(column);
     }
 }
 
-std::uint64_t Session::product_bytes_per_image(const Share& share) const {
-    if (share.budget.coefficients) {
-        return scene_->strips().bytes() / scene_->coefficient_count() *
-               *share.budget.coefficients;
+std::uint64_t Session::product_bytes_per_image(const Allowance& allowance) const {
+    if (allowance.budget.coefficients) {
+        return workspace_->transport_operator().product_bytes() /
+               workspace_->columns().count() * *allowance.budget.coefficients;
     }
-    return product_cost_.bytes_within(share.budget.milliseconds.value_or(0), share.sessions);
+    return product_cost_.bytes_within(allowance.budget.milliseconds.value_or(0),
+                                      allowance.sessions);
 }
 
-std::uint64_t Session::product_bytes_per_slice(const Share& share) const {
-    const std::uint64_t bytes = product_bytes_per_image(share);
-    return std::isfinite(share.ceiling_milliseconds)
-               ? std::min(bytes, product_cost_.bytes_within(share.ceiling_milliseconds,
-                                                            share.sessions))
+std::uint64_t Session::product_bytes_per_slice(const Allowance& allowance) const {
+    const std::uint64_t bytes = product_bytes_per_image(allowance);
+    return std::isfinite(allowance.ceiling_milliseconds)
+               ? std::min(bytes, product_cost_.bytes_within(allowance.ceiling_milliseconds,
+                                                            allowance.sessions))
                : bytes;
 }
 
-bool Session::full_product_is_next(const Share& share) const {
+bool Session::full_product_is_next(const Allowance& allowance) const {
     if (full_product_.running() || remaining_ == 0 ||
-        share.sessions >= kCompanyForFullProduct || error_.relative_l2() <= kUnseenError) {
+        allowance.sessions >= kCompanyForFullProduct || error_.relative_l2() <= kUnseenError) {
         return true;
     }
-    return scene_->strips().bytes() <= kImagesForFullProduct * product_bytes_per_image(share);
+    return workspace_->transport_operator().product_bytes() <=
+           kImagesForFullProduct * product_bytes_per_image(allowance);
 }
 
 // Exact images while dragging: nothing is then chosen or estimated.
-bool Session::full_product_fits_one_image(const Share& share) const {
-    return !share.budget.coefficients &&
-           scene_->strips().bytes() <= product_bytes_per_image(share);
+bool Session::full_product_fits_one_image(const Allowance& allowance) const {
+    return !allowance.budget.coefficients && workspace_->transport_operator().product_bytes() <=
+                                                 product_bytes_per_image(allowance);
 }
 
-void Session::advance_full_products(std::span<SessionTurn* const> turns, std::size_t sessions) {
-    if (turns.empty()) {
+void Session::advance_full_products(std::span<SessionStep* const> steps, std::size_t sessions) {
+    if (steps.empty()) {
         return;
     }
     PerSession<FullProduct*> products;
     std::uint64_t slice_bytes = 0;
     double ceiling = std::numeric_limits<double>::infinity();
-    for (const SessionTurn* turn : turns) {
-        products.push_back(&turn->session->full_product_);
+    for (const SessionStep* step : steps) {
+        products.push_back(&step->session->full_product_);
         slice_bytes =
-            std::max(slice_bytes, turn->session->product_bytes_per_slice(
-                                      {.budget = turn->budget,
+            std::max(slice_bytes, step->session->product_bytes_per_slice(
+                                      {.budget = step->budget,
                                        .sessions = sessions,
-                                       .ceiling_milliseconds = turn->ceiling_milliseconds}));
-        ceiling = std::min(ceiling, turn->ceiling_milliseconds);
+                                       .ceiling_milliseconds = step->ceiling_milliseconds}));
+        ceiling = std::min(ceiling, step->ceiling_milliseconds);
     }
     // Those that begin do so where another stands, to be swept together.
     const auto runs =
         std::find_if(products.begin(), products.end(),
                      [](const FullProduct* product) { return product->running(); });
     const std::uint32_t first_block = runs == products.end() ? 0 : (*runs)->next_block();
-    for (std::size_t i = 0; i < turns.size(); ++i) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
         if (!products[i]->running()) {
-            products[i]->start(turns[i]->session->lighting_.target(), first_block);
+            products[i]->start(steps[i]->session->signal_.target(), first_block);
         }
     }
     const Stopwatch stopwatch;
     std::uint64_t bytes = 0;
     const auto somebody_waits_for_all = [&] {
-        return std::any_of(turns.begin(), turns.end(), [](const SessionTurn* turn) {
-            return turn->session->lighting_is_new_ && turn->session->full_product_.running();
+        return std::any_of(steps.begin(), steps.end(), [](const SessionStep* step) {
+            return step->session->target_is_new_ && step->session->full_product_.running();
         });
     };
     do {
@@ -320,39 +322,31 @@ void Session::advance_full_products(std::span<SessionTurn* const> turns, std::si
                                                slice_bytes);
     } while (somebody_waits_for_all() && stopwatch.milliseconds() < ceiling);
     const double taken = stopwatch.milliseconds();
-    for (SessionTurn* turn : turns) {
-        turn->session->product_cost_.record_columns(bytes, taken);
-        turn->report.bytes_touched += bytes / turns.size();
-        if (!turn->session->full_product_.running()) {
-            turn->session->full_product_is_done(turn->report);
+    for (SessionStep* step : steps) {
+        step->session->product_cost_.record_columns(bytes, taken);
+        step->report.bytes_touched += bytes / steps.size();
+        if (!step->session->full_product_.running()) {
+            step->session->full_product_is_done(step->report);
         }
     }
 }
 
 void Session::full_product_is_done(StepReport& report) {
-    full_product_.exchange(images_);
-    if (lighting_is_new_) {
+    full_product_.exchange(sums_);
+    if (target_is_new_) {
         estimates_are_stale_ = true;
-        report.applied = static_cast<std::uint32_t>(scene_->coefficient_count());
+        report.applied = static_cast<std::uint32_t>(workspace_->columns().count());
     } else {
-        lit_.set(lighting_.target());
-        error_.approximation_is_target(lit_);
-        planner_.approximation_is_target(lit_);
+        significant_.set(signal_.target());
+        error_.approximation_is_target(significant_);
+        planner_.approximation_is_target(significant_);
         report.applied = remaining_;
     }
-    lighting_is_new_ = false;
+    target_is_new_ = false;
     remaining_ = 0;
-    lighting_.apply_all();
+    signal_.apply_all();
     exact_ = true;
     report.image_changed = true;
-}
-
-void Session::write_image(std::span<float> rgb) const {
-    write_relit_image(*scene_, images_.total(), rgb);
-}
-
-void Session::write_tiles(const TileRun& tiles, std::span<float> rgb) const {
-    write_relit_tiles(*scene_, images_.total(), tiles, rgb);
 }
 
 }  // namespace relume::engine

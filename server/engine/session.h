@@ -1,16 +1,15 @@
-// One incremental relighting: the lighting asked for, the approximation shown, and the image.
+// One incremental relighting: the signal asked for, the approximation shown, and the image.
 #pragma once
 
 #include "protocol/relighting/budget.h"
 #include "protocol/relighting/strategy.h"
-#include "server/engine/band_images.h"
+#include "server/engine/choosing/planner.h"
+#include "server/engine/columns/signal_state.h"
 #include "server/engine/cost_model.h"
 #include "server/engine/error_estimate.h"
-#include "server/engine/full_product.h"
-#include "server/engine/lighting.h"
-#include "server/engine/planner.h"
-#include "server/engine/relit_image.h"
-#include "server/engine/scene.h"
+#include "server/engine/sums/band_sums.h"
+#include "server/engine/sums/full_product.h"
+#include "server/engine/workspace.h"
 
 #include <cstdint>
 #include <limits>
@@ -34,7 +33,7 @@ struct StepReport {
 class Session;
 
 // A session's part in a step that several take together.
-struct SessionTurn {
+struct SessionStep {
     Session* session = nullptr;
     relighting::Budget budget;  // milliseconds: of the whole step, all sessions in it
     // Of one call, whatever the budget, by what the work has been taking: what is left of the
@@ -45,20 +44,20 @@ struct SessionTurn {
 
 // Not thread-safe: one thread at a time calls it; inside, work is spread over oneTBB's arena of
 // the caller. The image depends only on the history of calls, not on the number of threads nor
-// on who was relit together; an exact image depends on the lighting alone, to the last bit.
+// on who was relit together; an exact image depends on the signal alone, to the last bit.
 class Session {
   public:
-    Session(std::shared_ptr<const Scene> scene, relighting::Strategy strategy);
+    Session(std::shared_ptr<const Workspace> workspace, relighting::Strategy strategy);
 
-    // Target lighting: coefficients of radiance in the basis of the scene, planar [3][N], all
+    // Target signal: coefficients of radiance in the basis of the scene, planar [3][N], all
     // of at most kLargestCoefficient (throws std::invalid_argument otherwise, or when the count
     // is wrong; the session is unchanged).
-    void set_lighting(std::span<const float> coefficients);
+    void set_target(std::span<const float> coefficients);
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(relighting::Strategy strategy) { strategy_ = strategy; }
 
-    // One image's worth of work. New lighting: the method's resets, then the most important
-    // differences between target and approximation within the budget. While the lighting rests:
+    // One image's worth of work. New signal: the method's resets, then the most important
+    // differences between target and approximation within the budget. While the signal rests:
     // more of them, and then (at once, where it takes only a few images' time) the *full
     // product* in slices of the budget, after which the image is exact and has forgotten its
     // history. Where the full product fits into one image's milliseconds, every image is
@@ -68,7 +67,7 @@ class Session {
     // The same for each of several sessions of one scene, no two the same, in one sweep over
     // the transport: what they have in common is read and decoded once. Milliseconds are shared
     // alike. Under a budget of coefficients every session gets the bits it would get alone.
-    static void advance_together(std::span<SessionTurn> turns);
+    static void advance_together(std::span<SessionStep> steps);
 
     // One image's worth of the method alone, under a budget of columns and bytes: what
     // `advance` does before it turns to the full product.
@@ -78,81 +77,76 @@ class Session {
     // is met.
     [[nodiscard]] bool at_rest(const relighting::Budget& budget) const;
     [[nodiscard]] bool exact() const { return exact_; }
-    // A full product of a new lighting was begun under a ceiling and is not done: until then
-    // image and stated error are of the lighting before.
-    [[nodiscard]] bool shows_lighting_before() const {
-        return lighting_is_new_ && full_product_.running();
+    // A full product of a new signal was begun under a ceiling and is not done: until then
+    // image and stated error are of the signal before.
+    [[nodiscard]] bool shows_target_before() const {
+        return target_is_new_ && full_product_.running();
     }
     [[nodiscard]] double stated_error() const;
-    [[nodiscard]] const Scene& scene() const { return *scene_; }
+    [[nodiscard]] const Workspace& workspace() const { return *workspace_; }
 
     // Approximation L̃, planar [3][N].
     [[nodiscard]] std::span<const float> approximation() const {
-        return lighting_.approximation();
+        return signal_.approximation();
     }
-    // Sums before tint, in the basis of the blocks (receiver_basis.h): [blocks][3][256].
-    [[nodiscard]] std::span<const float> sums() const { return images_.total(); }
-    // The relit image, tint applied: interleaved RGB, row by row from the top, 3·width·height
-    // floats, linear radiance, premultiplied by coverage.
-    void write_image(std::span<float> rgb) const;
-    // The same of a few tiles; any number of threads may.
-    void write_tiles(const TileRun& tiles, std::span<float> rgb) const;
+    // What the image is made of, as TransportOperator: [blocks][3][256].
+    [[nodiscard]] std::span<const float> sums() const { return sums_.total(); }
 
   private:
-    // What a turn is about to do. The plan is the planner's, until it chooses again.
-    enum class Deed : std::uint8_t { nothing, plan, full_product };
-    struct Intent {
-        Deed deed = Deed::nothing;
+    // What a step is about to do. The plan is the planner's, until it chooses again.
+    enum class Work : std::uint8_t { nothing, plan, full_product };
+    struct Decision {
+        Work work = Work::nothing;
         const Plan* plan = nullptr;
     };
-    // A session's part of what all sessions of a step may take.
-    struct Share {
+    // What a session may take of a step that several take together.
+    struct Allowance {
         relighting::Budget budget;
         std::size_t sessions = 1;  // among which its milliseconds are divided
         double ceiling_milliseconds = std::numeric_limits<double>::infinity();
     };
 
-    [[nodiscard]] Intent intend(const Share& share);
+    [[nodiscard]] Decision decide(const Allowance& allowance);
     // Chooses; the approximation and the image stay as they are.
     [[nodiscard]] const Plan& next_plan(const SelectionBudget& budget);
     // Brings images, approximations and estimates to where the plans lead.
-    struct PlannedTurn {
+    struct PlannedStep {
         Session* session;
         const Plan* plan;
         StepReport* report;
     };
-    static void carry_out(std::span<const PlannedTurn> turns);
+    static void carry_out(std::span<const PlannedStep> steps);
     // Leaves out so little of the target that it does not show beside such an error.
     void set_target_of_estimates(double expected_error);
     // Takes in more of it where the error has become smaller than was expected.
     void refine_estimates();
     void plan_is_carried_out(const Plan& plan, StepReport& report);
-    static void advance_full_products(std::span<SessionTurn* const> turns,
+    static void advance_full_products(std::span<SessionStep* const> steps,
                                       std::size_t sessions);
     void full_product_is_done(StepReport& report);
     void state(StepReport& report) const;
-    [[nodiscard]] bool full_product_is_next(const Share& share) const;
-    [[nodiscard]] bool full_product_fits_one_image(const Share& share) const;
-    [[nodiscard]] std::uint64_t product_bytes_per_image(const Share& share) const;
-    [[nodiscard]] std::uint64_t product_bytes_per_slice(const Share& share) const;
-    [[nodiscard]] SelectionBudget selection_budget(const Share& share) const;
+    [[nodiscard]] bool full_product_is_next(const Allowance& allowance) const;
+    [[nodiscard]] bool full_product_fits_one_image(const Allowance& allowance) const;
+    [[nodiscard]] std::uint64_t product_bytes_per_image(const Allowance& allowance) const;
+    [[nodiscard]] std::uint64_t product_bytes_per_slice(const Allowance& allowance) const;
+    [[nodiscard]] SelectionBudget selection_budget(const Allowance& allowance) const;
     void remove_drift(StepReport& report);
 
-    std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<const Workspace> workspace_;
     relighting::Strategy strategy_;
-    Lighting lighting_;
-    LitColumns lit_;  // of what the sketches were last made from
+    SignalState signal_;
+    SignificantColumns significant_;  // of what the sketches were last made from
     Planner planner_;
-    BandImages images_;
+    BandSums sums_;
     ErrorEstimate error_;
     // Columns that are chosen, and the full product, of which sessions share more.
     CostModel cost_;
     CostModel product_cost_;
     FullProduct full_product_;
-    ColumnWeights renewing_weights_;  // none until a band has drifted
+    TransportOperator::Weights renewing_weights_;  // none until a band has drifted
     std::uint32_t remaining_ = 0;
     double negligible_ = kSurelyNegligible;  // of the target, in the estimates
-    bool lighting_is_new_ = false;
+    bool target_is_new_ = false;
     // Error and choosing sketch do not know the approximation: it was made exact without them.
     bool estimates_are_stale_ = false;
     bool exact_ = true;  // a session begins with no light and a black image

@@ -1,7 +1,7 @@
 #include "server/net/server.h"
 
 #include "protocol/base/files/atomic_file.h"
-#include "server/engine/band_images.h"
+#include "server/engine/sums/band_sums.h"
 #include "server/net/http/access.h"
 #include "server/net/http/decoder_check.h"
 #include "server/net/http/http_routes.h"
@@ -183,7 +183,7 @@ void Server::Parts::warm_up() {
         environments.find(configuration.rooms.environment);
     try {
         for (const auto& scene : scenes.list()) {
-            static_cast<void>(first->prefiltered(scene->engine->face_resolution()));
+            static_cast<void>(first->prefiltered(scene->scene->face_resolution()));
         }
     } catch (const std::exception& failure) {
         spdlog::error("environment_broken name={} reason={:?}", configuration.rooms.environment,

@@ -1,5 +1,5 @@
 // How much of the memory's speed reaches the image: dense columns against plain reading.
-#include "server/engine/band_images.h"
+#include "server/engine/sums/band_sums.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
 #include "tests/bench/workbench.h"
@@ -15,15 +15,15 @@ namespace {
 // Images of `terms` columns each that go through the transport from end to end, lighting every
 // column, and once more, darkening them: a column comes back only after all others have passed
 // the caches.
-std::vector<ChangesOfImage> walk_through(const engine::Scene& scene, std::size_t terms) {
-    const std::size_t count = scene.coefficient_count();
+std::vector<ChangesOfImage> walk_through(const served::Scene& scene, std::size_t terms) {
+    const std::size_t count = scene.columns().count();
     std::vector<ChangesOfImage> images;
     for (std::size_t first = 0; first + terms <= count; first += terms) {
         ChangesOfImage& image = images.emplace_back();
         for (std::size_t j = first; j < first + terms; ++j) {
             image.push_back({.column = static_cast<std::uint32_t>(j), .to = {1, 0.5F, 0.25F}});
         }
-        const auto bands = scene.bands();
+        const auto bands = scene.columns().bands();
         std::sort(image.begin(), image.end(), [&](const auto& a, const auto& b) {
             return std::pair(bands[a.column], a.column) < std::pair(bands[b.column], b.column);
         });
@@ -41,12 +41,12 @@ void measure(Workbench& workbench, Results& results) {
     const auto scene = workbench.dense_scene();
     constexpr std::size_t kTerms = 300;
     const auto images =
-        walk_through(*scene, std::min<std::size_t>(kTerms, scene->coefficient_count() / 2));
+        walk_through(*scene, std::min<std::size_t>(kTerms, scene->columns().count() / 2));
     const std::size_t rounds = workbench.quick() ? 3 : 5 * images.size();
     ReadBandwidth& reading = workbench.read_bandwidth();
     for (const int threads : Workbench::thread_counts()) {
         test::with_threads(threads, [&] {
-            engine::BandImages relit(*scene);
+            engine::BandSums relit(scene->stored_operator());
             const test::TimedVariant variants[] = {
                 [&](std::size_t round) { relit.update(0, images[round % images.size()]); },
                 [&](std::size_t round) {

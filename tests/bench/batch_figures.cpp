@@ -23,11 +23,11 @@ const relighting::Budget kDragging{
 
 class Artists {
   public:
-    explicit Artists(const std::shared_ptr<const engine::Scene>& scene)
+    explicit Artists(const std::shared_ptr<const served::Scene>& scene)
         : drag_(scene->face_resolution()) {
         for (std::size_t i = 0; i < kSessions; ++i) {
             sessions_.push_back(
-                std::make_unique<engine::Session>(scene, relighting::Strategy{}));
+                std::make_unique<engine::Session>(scene->workspace(), relighting::Strategy{}));
         }
     }
 
@@ -42,7 +42,7 @@ class Artists {
 
     void set_lights() {
         for (std::size_t i = 0; i < kSessions; ++i) {
-            sessions_[i]->set_lighting(lights_[i]);
+            sessions_[i]->set_target(lights_[i]);
         }
     }
 
@@ -53,7 +53,7 @@ class Artists {
     }
 
     void step_together(const relighting::Budget& budget) {
-        std::vector<engine::SessionTurn> turns;
+        std::vector<engine::SessionStep> turns;
         for (const auto& session : sessions_) {
             if (!session->at_rest(budget)) {
                 turns.push_back({.session = session.get(), .budget = budget, .report = {}});

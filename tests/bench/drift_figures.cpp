@@ -41,7 +41,7 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
 
 // The worst of all checks. Each stands at the end of a period, long after the lamp went out,
 // and compares the image shown with the dense product of the lighting that it shows.
-double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
+double worst_drift(const std::shared_ptr<const served::Scene>& scene,
                    relighting::Strategy strategy,
                    std::size_t edits) {
     const LightDrag drag(scene->face_resolution());
@@ -56,11 +56,11 @@ double worst_drift(const std::shared_ptr<const engine::Scene>& scene,
     }
     const relighting::Budget budget{
         .milliseconds = {}, .coefficients = kTerms, .target_error = 0};
-    engine::Session session(scene, strategy);
+    engine::Session session(scene->workspace(), strategy);
     double worst = 0;
     for (std::size_t edit = 0; edit < edits; ++edit) {
         const auto& lighting = edit % kPeriod < kLampOn ? on : off;
-        session.set_lighting(lighting[edit % kTurns]);
+        session.set_target(lighting[edit % kTurns]);
         session.advance(budget);
         if ((edit + 1) % (edits / kChecks) == 0) {
             const auto exact = test::dense_product(scene->transport(), session.approximation());

@@ -31,7 +31,7 @@ Columns shard_columns(const transport::ShardReader& shard, const SparseColumns& 
 }
 
 template <typename Image>
-std::vector<Image> black(const engine::Scene& scene) {
+std::vector<Image> black(const served::Scene& scene) {
     std::vector<Image> shards;
     for (const auto& shard : scene.transport().shards()) {
         shards.push_back(
@@ -155,7 +155,7 @@ void EigenProduct::add(std::span<const engine::ColumnChange> changes) {
 
 std::vector<float> EigenProduct::sums() const {
     std::vector<float> sums;
-    sums.reserve(columns_->columns_->scene().sum_count());
+    sums.reserve(columns_->columns_->scene().stored_operator().sum_count());
     std::visit(
         [&](const auto& shards) {
             for (const auto& image : shards) {

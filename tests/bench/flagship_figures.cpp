@@ -56,7 +56,7 @@ void measure(Workbench& workbench, Results& results) {
         }
         results.set(kKeys[2], 1e3 * resting.seconds());
         results.measured("flagship") = {{"transport_bytes", scene->transport().total_bytes()},
-                                        {"strip_bytes", scene->strips().bytes()},
+                                        {"strip_bytes", scene->stored_operator().strips().bytes()},
                                         {"ms_p50", test::median(latencies_ms)},
                                         {"ms_max", latencies_ms.back()},
                                         {"images", images}};

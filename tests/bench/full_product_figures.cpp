@@ -1,5 +1,5 @@
 // The whole product T·L against reading the transport once.
-#include "server/engine/full_product.h"
+#include "server/engine/sums/full_product.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/light_drag.h"
 #include "tests/bench/workbench.h"
@@ -12,11 +12,11 @@ void measure(Workbench& workbench, Results& results) {
     const auto scene = workbench.scene();
     const int threads = Workbench::thread_counts().back();
     const std::uint64_t bytes = scene->transport().total_bytes();
-    const std::uint64_t whole = scene->strips().bytes();
+    const std::uint64_t whole = scene->stored_operator().strips().bytes();
     const std::vector<float> lighting = LightDrag(scene->face_resolution()).lighting(0);
     ReadBandwidth& reading = workbench.read_bandwidth();
     test::with_threads(threads, [&] {
-        engine::FullProduct product(*scene);
+        engine::FullProduct product(scene->stored_operator(), scene->workspace()->spare_sums());
         const test::TimedVariant variants[] = {
             [&](std::size_t /*round*/) {
                 product.start(lighting);

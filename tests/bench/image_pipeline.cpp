@@ -6,12 +6,12 @@
 
 namespace relume::bench {
 
-ImagePipeline::ImagePipeline(std::shared_ptr<const engine::Scene> scene)
+ImagePipeline::ImagePipeline(std::shared_ptr<const served::Scene> scene)
     : scene_(std::move(scene)),
       drag_(scene_->face_resolution()),
       sky_(scene_->transport()),
-      session_(scene_, relighting::Strategy{}),
-      composer_(sky_, scene_->image()),
+      session_(scene_->workspace(), relighting::Strategy{}),
+      composer_(scene_->view(), sky_),
       display_(wire::Display{}) {}
 
 ImagePipeline::~ImagePipeline() {
@@ -22,18 +22,18 @@ void ImagePipeline::turn_light(std::size_t number) {
     rig_ = drag_.rig(number);
     light::evaluate(rig_, scene_->face_resolution(), cubemap_);
     light::lighting_coefficients(cubemap_, scene_->projection(), coefficients_);
-    session_.set_lighting(coefficients_);
+    session_.set_target(coefficients_);
 }
 
 void ImagePipeline::begin_encoding() {
     encoding_.wait();
     composer_.set_background(wire::Background{}, rig_);
     const net::DisplayTable* const display = &display_;
-    composer_.compose(session_, {&display, 1}, false);
+    composer_.compose(session_.sums(), {&display, 1}, false);
     encoding_.run([this] {
         jpeg_bytes_ = jpeg_
-                          .encode(composer_.codes(0), scene_->image().width,
-                                  scene_->image().height, kMovingQuality)
+                          .encode(composer_.codes(0), scene_->view().image().width,
+                                  scene_->view().image().height, kMovingQuality)
                           .size();
     });
 }

@@ -22,7 +22,7 @@ namespace relume::bench {
 // caller. Not thread-safe.
 class ImagePipeline {
   public:
-    explicit ImagePipeline(std::shared_ptr<const engine::Scene> scene);
+    explicit ImagePipeline(std::shared_ptr<const served::Scene> scene);
     ImagePipeline(const ImagePipeline&) = delete;
     ImagePipeline& operator=(const ImagePipeline&) = delete;
     ImagePipeline(ImagePipeline&&) = delete;
@@ -45,7 +45,7 @@ class ImagePipeline {
     // As images that move are sent (server/net/README.md).
     static constexpr int kMovingQuality = 80;
 
-    std::shared_ptr<const engine::Scene> scene_;
+    std::shared_ptr<const served::Scene> scene_;
     LightDrag drag_;
     net::SkyPixels sky_;
     engine::Session session_;

@@ -12,7 +12,7 @@ namespace {
 using transport::kColours;
 
 // The columns that matter most, of those that differ.
-std::vector<std::uint32_t> most_important(const engine::Scene& scene,
+std::vector<std::uint32_t> most_important(const served::Scene& scene,
                                           std::span<const float> target,
                                           std::span<const float> shown,
                                           std::size_t terms) {
@@ -20,7 +20,7 @@ std::vector<std::uint32_t> most_important(const engine::Scene& scene,
         float importance;
         std::uint32_t column;
     };
-    const std::size_t count = scene.coefficient_count();
+    const std::size_t count = scene.columns().count();
     std::vector<Candidate> candidates;
     for (std::uint32_t j = 0; j < count; ++j) {
         float importance = 0;
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> most_important(const engine::Scene& scene,
     std::vector<std::uint32_t> columns;
     std::transform(candidates.begin(), end, std::back_inserter(columns),
                    [](const Candidate& candidate) { return candidate.column; });
-    const auto bands = scene.bands();
+    const auto bands = scene.columns().bands();
     std::sort(columns.begin(), columns.end(), [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(bands[a], a) < std::pair(bands[b], b);
     });
@@ -74,11 +74,11 @@ std::vector<float> LightDrag::lighting(std::size_t image) const {
     return coefficients;
 }
 
-std::vector<ChangesOfImage> drag_changes(const engine::Scene& scene,
+std::vector<ChangesOfImage> drag_changes(const served::Scene& scene,
                                          std::size_t terms,
                                          std::size_t images) {
     const LightDrag drag(scene.face_resolution());
-    const std::size_t count = scene.coefficient_count();
+    const std::size_t count = scene.columns().count();
     std::vector<float> shown(kColours * count);
     std::vector<ChangesOfImage> changes(images);
     for (std::size_t image = 0; image < images; ++image) {
@@ -105,10 +105,10 @@ std::vector<std::uint32_t> columns_of(std::span<const ChangesOfImage> images) {
     return {columns.begin(), columns.end()};
 }
 
-std::uint64_t bytes_of(const engine::Scene& scene, const ChangesOfImage& image) {
+std::uint64_t bytes_of(const served::Scene& scene, const ChangesOfImage& image) {
     std::uint64_t bytes = 0;
     for (const engine::ColumnChange& change : image) {
-        bytes += scene.transport().column_bytes(change.column);
+        bytes += scene.columns().bytes(change.column);
     }
     return bytes;
 }

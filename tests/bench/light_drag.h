@@ -2,8 +2,8 @@
 // the next.
 #pragma once
 
-#include "server/engine/column_change.h"
-#include "server/engine/scene.h"
+#include "server/engine/columns/column_change.h"
+#include "server/scene/scene.h"
 #include "server/light/light_rig.h"
 
 #include <cstddef>
@@ -31,7 +31,7 @@ class LightDrag {
 // Images of a drag, incremental: of each the `terms` columns whose change matters most,
 // Σ_c (ΔL(c,j)·‖T(c,j)‖)², ordered by band and index as the engine takes them.
 using ChangesOfImage = std::vector<engine::ColumnChange>;
-[[nodiscard]] std::vector<ChangesOfImage> drag_changes(const engine::Scene& scene,
+[[nodiscard]] std::vector<ChangesOfImage> drag_changes(const served::Scene& scene,
                                                        std::size_t terms,
                                                        std::size_t images);
 
@@ -39,6 +39,6 @@ using ChangesOfImage = std::vector<engine::ColumnChange>;
 [[nodiscard]] std::vector<std::uint32_t> columns_of(std::span<const ChangesOfImage> images);
 
 // Bytes of all columns of one image.
-[[nodiscard]] std::uint64_t bytes_of(const engine::Scene& scene, const ChangesOfImage& image);
+[[nodiscard]] std::uint64_t bytes_of(const served::Scene& scene, const ChangesOfImage& image);
 
 }  // namespace relume::bench

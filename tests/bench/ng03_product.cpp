@@ -92,7 +92,7 @@ void Ng03Columns::count(const Shard& shard) {
 }
 
 Ng03Product::Ng03Product(const Ng03Columns& columns)
-    : columns_(&columns), image_(columns.columns_->scene().sum_count()) {}
+    : columns_(&columns), image_(columns.columns_->scene().stored_operator().sum_count()) {}
 
 void Ng03Product::add_column(const Ng03Columns::Shard& shard,
                              std::size_t position,

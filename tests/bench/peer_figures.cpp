@@ -1,7 +1,7 @@
 // The engine beside Eigen and [Ng03]: same transport, same coefficients, same threads, by
 // turns. They hold the transport by pixel, and then in the basis of our own cells.
-#include "server/engine/band_images.h"
-#include "server/engine/relit_image.h"
+#include "server/view/image_view.h"
+#include "server/engine/sums/band_sums.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/workbench.h"
@@ -29,7 +29,7 @@ constexpr std::size_t kImages = 24;
 constexpr std::size_t kTerms[] = {30, 100, 300};
 
 // Of the columns of the drag: what they are stored as explains much of the times.
-nlohmann::json bytes_by_encoding(const engine::Scene& scene,
+nlohmann::json bytes_by_encoding(const served::Scene& scene,
                                  std::span<const std::uint32_t> columns) {
     std::array<std::uint64_t, transport::kCellTagCount> bytes{};
     for (const auto& shard : scene.transport().shards()) {
@@ -53,7 +53,7 @@ nlohmann::json bytes_by_encoding(const engine::Scene& scene,
 }
 
 // What the engine reads for the drag.
-nlohmann::json our_columns(const engine::Scene& scene, std::span<const ChangesOfImage> images) {
+nlohmann::json our_columns(const served::Scene& scene, std::span<const ChangesOfImage> images) {
     const auto columns = columns_of(images);
     std::uint64_t bytes = 0;
     for (const ChangesOfImage& image : images) {
@@ -66,7 +66,7 @@ nlohmann::json our_columns(const engine::Scene& scene, std::span<const ChangesOf
 
 // By pixel, so finely rounded that nothing but floating point is left to differ: the first
 // image alone, for such columns are large.
-nlohmann::json differences_of_fine_pixels(const engine::Scene& scene,
+nlohmann::json differences_of_fine_pixels(const served::Scene& scene,
                                           std::span<const ChangesOfImage> images) {
     constexpr float kFineLevels = 1 << 22;
     const auto first = images.first(1);
@@ -101,9 +101,9 @@ struct Speedups {
 // it turns its sums into pixels too, and applies the tint, which they do not.
 class OurImage {
   public:
-    OurImage(const engine::Scene& scene, PeerBasis basis) : scene_(&scene), sums_(scene) {
+    OurImage(const served::Scene& scene, PeerBasis basis) : scene_(&scene), sums_(scene.stored_operator()) {
         if (basis == PeerBasis::pixels) {
-            const transport::TileGrid& image = scene.image();
+            const transport::TileGrid& image = scene.view().image();
             pixels_.resize(std::size_t{transport::kColours} * image.width * image.height);
         }
     }
@@ -111,13 +111,13 @@ class OurImage {
     void add(std::span<const engine::ColumnChange> changes) {
         sums_.update(0, changes);
         if (!pixels_.empty()) {
-            engine::write_relit_image(*scene_, sums_.total(), pixels_);
+            scene_->view().write_image(sums_.total(), pixels_);
         }
     }
 
   private:
-    const engine::Scene* scene_;
-    engine::BandImages sums_;
+    const served::Scene* scene_;
+    engine::BandSums sums_;
     std::vector<float> pixels_;  // row by row, RGB; empty where sums are compared
 };
 
@@ -147,7 +147,7 @@ Speedups time_peers(const Peers& peers,
 }
 
 // The worse of one thread and two.
-Speedups compare(const engine::Scene& scene,
+Speedups compare(const served::Scene& scene,
                  std::span<const ChangesOfImage> images,
                  PeerBasis basis,
                  std::size_t rounds,

@@ -1,6 +1,6 @@
 #include "tests/bench/peers.h"
 
-#include "server/engine/band_images.h"
+#include "server/engine/sums/band_sums.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -39,7 +39,7 @@ nlohmann::json to_json(const Peers& peers) {
 nlohmann::json checked_differences(const Peers& peers,
                                    std::span<const ChangesOfImage> images,
                                    double allowed) {
-    engine::BandImages sums(peers.columns.scene());
+    engine::BandSums sums(peers.columns.scene().stored_operator());
     Ng03Product ng03(peers.ng03);
     std::vector<std::unique_ptr<EigenProduct>> eigen;
     for (const EigenLayout layout : kEigenLayouts) {

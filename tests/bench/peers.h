@@ -13,7 +13,7 @@ namespace relume::bench {
 
 // Hold the columns that a drag touches, and no others. Immutable.
 struct Peers {
-    Peers(const engine::Scene& scene,
+    Peers(const served::Scene& scene,
           std::span<const ChangesOfImage> images,
           PeerBasis basis,
           float levels = kNg03Levels)

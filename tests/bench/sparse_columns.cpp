@@ -22,7 +22,7 @@ std::string_view name_from(PeerBasis basis) {
     return "";
 }
 
-SparseColumns::SparseColumns(const engine::Scene& scene,
+SparseColumns::SparseColumns(const served::Scene& scene,
                              std::span<const std::uint32_t> columns,
                              PeerBasis basis,
                              float levels)
@@ -120,7 +120,7 @@ std::vector<float> SparseColumns::image_from_sums(std::span<const float> sums) c
     return image;
 }
 
-std::array<float, kColours> channel_weights(const engine::Scene& scene,
+std::array<float, kColours> channel_weights(const served::Scene& scene,
                                             const engine::ColumnChange& change,
                                             std::uint32_t channel) {
     const auto& matrix = scene.transport().manifest().colour.matrix;

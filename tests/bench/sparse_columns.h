@@ -2,8 +2,8 @@
 // What the peers build their own storage from.
 #pragma once
 
-#include "server/engine/column_change.h"
-#include "server/engine/scene.h"
+#include "server/engine/columns/column_change.h"
+#include "server/scene/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -44,12 +44,12 @@ struct SparseEntry {
 // the largest magnitude of the column in the whole image; what is then zero is no entry.
 class SparseColumns {
   public:
-    SparseColumns(const engine::Scene& scene,
+    SparseColumns(const served::Scene& scene,
                   std::span<const std::uint32_t> columns,
                   PeerBasis basis,
                   float levels = kNg03Levels);
 
-    [[nodiscard]] const engine::Scene& scene() const { return *scene_; }
+    [[nodiscard]] const served::Scene& scene() const { return *scene_; }
     [[nodiscard]] PeerBasis basis() const { return basis_; }
     [[nodiscard]] std::uint32_t channels() const { return channels_; }
     // Positions, columns × channels.
@@ -82,7 +82,7 @@ class SparseColumns {
                       std::span<float, transport::kBlockSize> pixels) const;
     [[nodiscard]] float largest_magnitude(std::size_t position) const;
 
-    const engine::Scene* scene_;
+    const served::Scene* scene_;
     PeerBasis basis_;
     std::uint32_t channels_;
     std::vector<std::uint32_t> columns_;
@@ -92,6 +92,6 @@ class SparseColumns {
 
 // matrix[c][k]·ΔL(j,c): what channel k of a change counts in each colour, before the scale.
 [[nodiscard]] std::array<float, transport::kColours> channel_weights(
-    const engine::Scene& scene, const engine::ColumnChange& change, std::uint32_t channel);
+    const served::Scene& scene, const engine::ColumnChange& change, std::uint32_t channel);
 
 }  // namespace relume::bench

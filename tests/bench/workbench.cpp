@@ -14,15 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<const engine::Scene> open_scene(const fs::path& directory) {
-    return std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+std::shared_ptr<const served::Scene> open_scene(const fs::path& directory) {
+    return std::make_shared<const served::Scene>(transport::Transport::open(directory));
 }
 
 }  // namespace
 
 Workbench::Workbench(Options options) : options_(std::move(options)), scenes_(options_.cache) {}
 
-std::shared_ptr<const engine::Scene> Workbench::scene() {
+std::shared_ptr<const served::Scene> Workbench::scene() {
     if (!scene_) {
         scene_ =
             options_.scene.empty()
@@ -32,7 +32,7 @@ std::shared_ptr<const engine::Scene> Workbench::scene() {
     return scene_;
 }
 
-std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
+std::shared_ptr<const served::Scene> Workbench::dense_scene() {
     if (!dense_scene_) {
         const DenseTransportSize size = quick() ? kQuickDenseTransport : kDenseTransport;
         const fs::path directory =
@@ -48,13 +48,13 @@ std::shared_ptr<const engine::Scene> Workbench::dense_scene() {
     return dense_scene_;
 }
 
-std::shared_ptr<const engine::Scene> Workbench::drift_scene() {
+std::shared_ptr<const served::Scene> Workbench::drift_scene() {
     return scenes_.baked("drift-32-8",
                          {"--builtin", "table", "--size", "32x32", "--light-resolution", "8",
                           "--bounces", "1", "--samples", "16"});
 }
 
-std::shared_ptr<const engine::Scene> Workbench::flagship_scene() {
+std::shared_ptr<const served::Scene> Workbench::flagship_scene() {
     return scenes_.baked("flagship-1920-64",
                          {"--builtin", "table", "--size", "1920x1080", "--bounces", "1"});
 }

@@ -1,7 +1,7 @@
 // What the experiments share: options, scenes made when missing, the machine's read bandwidth.
 #pragma once
 
-#include "server/engine/scene.h"
+#include "server/scene/scene.h"
 #include "tests/bench/read_bandwidth.h"
 #include "tests/support/scene_cache.h"
 
@@ -30,15 +30,15 @@ class Workbench {
     [[nodiscard]] bool quick() const { return options_.quick; }
 
     // The scene of most figures; baked when it is missing and none was named.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> scene();
+    [[nodiscard]] std::shared_ptr<const served::Scene> scene();
     // Null until a figure asked for it.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> scene_in_use() const { return scene_; }
+    [[nodiscard]] std::shared_ptr<const served::Scene> scene_in_use() const { return scene_; }
     // Every cell of it is dense8, and it is far larger than the last-level cache.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> dense_scene();
+    [[nodiscard]] std::shared_ptr<const served::Scene> dense_scene();
     // Small, so that a million edits take two minutes.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> drift_scene();
+    [[nodiscard]] std::shared_ptr<const served::Scene> drift_scene();
     // 1920×1080 in colour, with a bounce. Baking it takes long and goes on where it stopped.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> flagship_scene();
+    [[nodiscard]] std::shared_ptr<const served::Scene> flagship_scene();
 
     [[nodiscard]] ReadBandwidth& read_bandwidth();
 
@@ -48,8 +48,8 @@ class Workbench {
   private:
     Options options_;
     test::SceneCache scenes_;
-    std::shared_ptr<const engine::Scene> scene_;
-    std::shared_ptr<const engine::Scene> dense_scene_;
+    std::shared_ptr<const served::Scene> scene_;
+    std::shared_ptr<const served::Scene> dense_scene_;
     std::unique_ptr<ReadBandwidth> read_bandwidth_;
 };
 

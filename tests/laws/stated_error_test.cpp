@@ -12,8 +12,8 @@
 namespace relume::lab {
 namespace {
 
-std::shared_ptr<const engine::Scene> test_scene() {
-    return std::make_shared<const engine::Scene>(
+std::shared_ptr<const served::Scene> test_scene() {
+    return std::make_shared<const served::Scene>(
         transport::Transport::open(RELUME_TEST_SCENES "/table.relume"));
 }
 

@@ -5,19 +5,19 @@
 
 namespace relume::stability {
 
-std::vector<double> band_l1(const engine::Scene& scene,
+std::vector<double> band_l1(const served::Scene& scene,
                             std::span<const float> a,
                             std::span<const float> b) {
-    std::vector<double> sums(scene.band_count());
-    const std::size_t count = scene.coefficient_count();
+    std::vector<double> sums(scene.columns().band_count());
+    const std::size_t count = scene.columns().count();
     for (std::size_t i = 0; i < a.size(); ++i) {
         const double other = b.empty() ? 0.0 : double{b[i]};
-        sums[scene.bands()[i % count]] += std::abs(double{a[i]} - other);
+        sums[scene.columns().bands()[i % count]] += std::abs(double{a[i]} - other);
     }
     return sums;
 }
 
-double worst_band_residual(const engine::Scene& scene,
+double worst_band_residual(const served::Scene& scene,
                            std::span<const float> target,
                            std::span<const float> approximation) {
     const std::vector<double> wanted = band_l1(scene, target);

@@ -59,10 +59,10 @@ struct End {
     std::vector<float> sums;
     double error = 0;
 };
-End fresh_end(const std::shared_ptr<const engine::Scene>& scene, std::uint64_t seed) {
+End fresh_end(const std::shared_ptr<const served::Scene>& scene, std::uint64_t seed) {
     End end{test::random_lighting(scene->face_resolution(), 4711 + seed), {}, 0};
-    engine::Session session(scene, {});
-    session.set_lighting(end.lighting);
+    engine::Session session(scene->workspace(), {});
+    session.set_target(end.lighting);
     run_until_exact(session);
     end.sums.assign(session.sums().begin(), session.sums().end());
     end.error = test::relative_l2(session.sums(),
@@ -70,11 +70,11 @@ End fresh_end(const std::shared_ptr<const engine::Scene>& scene, std::uint64_t s
     return end;
 }
 
-void live_through(const std::shared_ptr<const engine::Scene>& scene,
+void live_through(const std::shared_ptr<const served::Scene>& scene,
                   const End& end,
                   std::mt19937_64& random,
                   Tally& tally) {
-    engine::Session session(scene, random_strategy(random));
+    engine::Session session(scene->workspace(), random_strategy(random));
     const auto step = [&](const relighting::Budget& budget) {
         session.advance(budget);
         tally.images += 1;
@@ -82,7 +82,7 @@ void live_through(const std::shared_ptr<const engine::Scene>& scene,
     };
     for (std::uint64_t edits = random() % 8; edits > 0; --edits) {
         const float sun = one_of(random, {0.0F, 300.0F, 1e6F, 1e10F});
-        session.set_lighting(
+        session.set_target(
             test::random_lighting(scene->face_resolution(), random() % 1000, sun));
         if (random() % 2 == 0) {
             session.set_strategy(random_strategy(random));
@@ -92,13 +92,13 @@ void live_through(const std::shared_ptr<const engine::Scene>& scene,
             step(budget);
         }
     }
-    session.set_lighting(end.lighting);
+    session.set_target(end.lighting);
     const relighting::Budget budget = random_budget(random);
     const auto differs = [&] {
         return !std::equal(end.sums.begin(), end.sums.end(), session.sums().begin());
     };
     bool before_rest = false;
-    for (std::size_t i = 0; i < 2 * scene->coefficient_count() && !session.exact(); ++i) {
+    for (std::size_t i = 0; i < 2 * scene->columns().count() && !session.exact(); ++i) {
         before_rest = differs();
         step(budget);
     }

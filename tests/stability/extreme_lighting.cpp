@@ -40,19 +40,19 @@ struct Extremes {
 
 // Under every method: from one lighting to its opposite, so that differences are twice as
 // large, with few columns an image, and then to rest.
-void swing(const std::shared_ptr<const engine::Scene>& scene,
+void swing(const std::shared_ptr<const served::Scene>& scene,
            float largest,
            std::uint64_t seed,
            Extremes& extremes) {
     const std::uint32_t n = scene->face_resolution();
     const auto watch = [&](const engine::Session& session, const engine::StepReport& report) {
         extremes.not_finite += std::isfinite(report.stated_error) ? 0 : 1;
-        for (const float value : image_of(session).rgb) {
+        for (const float value : image_of(scene->view(), session).rgb) {
             extremes.not_finite += std::isfinite(value) ? 0 : 1;
         }
     };
     for (const relighting::Method method : kMethods) {
-        engine::Session session(scene,
+        engine::Session session(scene->workspace(),
                                 {.method = method, .priority = relighting::Priority::benefit});
         const relighting::Budget few{.milliseconds = {}, .coefficients = 40, .target_error = 0};
         Lighting lighting;
@@ -61,12 +61,12 @@ void swing(const std::shared_ptr<const engine::Scene>& scene,
             for (float& value : lighting) {
                 value = turn % 2 == 0 ? value : -value;
             }
-            session.set_lighting(lighting);
+            session.set_target(lighting);
             for (int step = 0; step < 3; ++step) {
                 watch(session, session.advance(few));
             }
         }
-        for (std::size_t i = 0; i < scene->coefficient_count() && !session.exact(); ++i) {
+        for (std::size_t i = 0; i < scene->columns().count() && !session.exact(); ++i) {
             watch(session, session.advance(few));
         }
         extremes.not_exact += session.exact() ? 0 : 1;
@@ -77,10 +77,10 @@ void swing(const std::shared_ptr<const engine::Scene>& scene,
     }
 }
 
-bool is_refused(const std::shared_ptr<const engine::Scene>& scene, float largest) {
-    engine::Session session(scene, {});
+bool is_refused(const std::shared_ptr<const served::Scene>& scene, float largest) {
+    engine::Session session(scene->workspace(), {});
     try {
-        session.set_lighting(scaled_lighting(scene->face_resolution(), 1, largest));
+        session.set_target(scaled_lighting(scene->face_resolution(), 1, largest));
     } catch (const std::invalid_argument&) {
         return true;
     }

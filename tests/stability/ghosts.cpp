@@ -31,12 +31,12 @@ light::AreaLight light_of(std::size_t image) {
 
 // Light that stands in L̃ where none is in L: ∫ max(0, L̃ − L) dω beyond two texels from the
 // light's rim, of the light's own energy.
-double trail(const engine::Scene& scene,
+double trail(const served::Scene& scene,
              const Lighting& target,
              const Lighting& approximation,
              const light::AreaLight& light) {
     const std::uint32_t n = scene.face_resolution();
-    const std::size_t texels = scene.coefficient_count();
+    const std::size_t texels = scene.columns().count();
     std::vector<float> excess(texels);  // of red; the light is white
     for (std::size_t i = 0; i < texels; ++i) {
         excess[i] = approximation[i] - target[i];
@@ -64,7 +64,7 @@ struct Measured {
     std::size_t worst = 0;   // image of the largest image error
 };
 
-Measured measure(const std::shared_ptr<const engine::Scene>& scene,
+Measured measure(const std::shared_ptr<const served::Scene>& scene,
                  relighting::Method method,
                  std::span<const Lighting> lightings,
                  std::span<const RelitImage> exact) {

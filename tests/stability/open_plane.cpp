@@ -9,17 +9,17 @@ namespace relume::stability {
 
 OpenPlane::OpenPlane(Workbench& workbench)
     : scene_(workbench.baked("plane", {.width = 32, .height = 32, .face_resolution = 16})),
-      session_(scene_, {}) {}
+      session_(scene_->workspace(), {}) {}
 
 std::uint32_t OpenPlane::face_resolution() const {
     return scene_->face_resolution();
 }
 
 double OpenPlane::brightness(const light::LightCubemap& cubemap) {
-    session_.set_lighting(lighting_from_cubemap(cubemap));
+    session_.set_target(lighting_from_cubemap(cubemap));
     run_until_exact(session_);
     double sum = 0;
-    const RelitImage image = image_of(session_);
+    const RelitImage image = image_of(scene_->view(), session_);
     for (const float value : image.rgb) {
         sum += double{value};
     }

@@ -29,10 +29,10 @@ class OpenPlane {
     // was stored, 1 % (its `measured` errors say less).
     [[nodiscard]] double tolerance(const Imath::V3f& direction) const;
 
-    [[nodiscard]] const std::shared_ptr<const engine::Scene>& scene() const { return scene_; }
+    [[nodiscard]] const std::shared_ptr<const served::Scene>& scene() const { return scene_; }
 
   private:
-    std::shared_ptr<const engine::Scene> scene_;
+    std::shared_ptr<const served::Scene> scene_;
     engine::Session session_;
 };
 

@@ -23,7 +23,7 @@ struct Popping {
     std::size_t worst_image = 1;  // of the largest ‖Δ(B̃ − B)‖
 };
 
-Popping measure(const std::shared_ptr<const engine::Scene>& scene,
+Popping measure(const std::shared_ptr<const served::Scene>& scene,
                 relighting::Method method,
                 std::uint32_t columns,
                 std::span<const Lighting> lightings,

@@ -25,7 +25,7 @@ class Relighter {
     [[nodiscard]] Relit relit(const light::LightCubemap& light);
 
   private:
-    std::shared_ptr<const engine::Scene> scene_;
+    std::shared_ptr<const served::Scene> scene_;
     std::unique_ptr<lab::Contestant> contestant_;
 };
 

@@ -20,11 +20,11 @@ double root_of_squares(std::size_t count, Value value) {
 
 }  // namespace
 
-RelitImage image_of(const engine::Session& session) {
-    const auto& size = session.scene().image();
+RelitImage image_of(const view::ImageView& view, const engine::Session& session) {
+    const auto& size = view.image();
     RelitImage image{size.width, size.height, {}};
     image.rgb.resize(std::size_t{3} * size.width * size.height);
-    session.write_image(image.rgb);
+    view.write_image(session.sums(), image.rgb);
     return image;
 }
 
@@ -56,31 +56,31 @@ RelitImage absolute_difference(const RelitImage& a, const RelitImage& b, float g
     return difference;
 }
 
-RelitRun relight_in_turn(const std::shared_ptr<const engine::Scene>& scene,
+RelitRun relight_in_turn(const std::shared_ptr<const served::Scene>& scene,
                          relighting::Strategy strategy,
                          std::uint32_t columns,
                          std::span<const Lighting> lightings) {
-    engine::Session session(scene, strategy);
+    engine::Session session(scene->workspace(), strategy);
     RelitRun run;
     for (const Lighting& lighting : lightings) {
-        session.set_lighting(lighting);
+        session.set_target(lighting);
         run.steps.push_back(session.advance_incrementally(
             {.columns = columns, .bytes = std::numeric_limits<std::uint64_t>::max()}));
-        run.images.push_back(image_of(session));
+        run.images.push_back(image_of(scene->view(), session));
         run.approximations.emplace_back(session.approximation().begin(),
                                         session.approximation().end());
     }
     return run;
 }
 
-std::vector<RelitImage> exact_images(const std::shared_ptr<const engine::Scene>& scene,
+std::vector<RelitImage> exact_images(const std::shared_ptr<const served::Scene>& scene,
                                      std::span<const Lighting> lightings) {
-    engine::Session session(scene, {});
+    engine::Session session(scene->workspace(), {});
     std::vector<RelitImage> images;
     for (const Lighting& lighting : lightings) {
-        session.set_lighting(lighting);
+        session.set_target(lighting);
         run_until_exact(session);
-        images.push_back(image_of(session));
+        images.push_back(image_of(scene->view(), session));
     }
     return images;
 }

@@ -3,6 +3,7 @@
 
 #include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
+#include "server/scene/scene.h"
 
 #include <cstdint>
 #include <memory>
@@ -18,7 +19,8 @@ struct RelitImage {
     std::vector<float> rgb;
 };
 
-[[nodiscard]] RelitImage image_of(const engine::Session& session);
+[[nodiscard]] RelitImage image_of(const view::ImageView& view,
+                                  const engine::Session& session);
 
 // Euclidean, over all pixels and colours.
 [[nodiscard]] double norm(const RelitImage& image);
@@ -41,14 +43,14 @@ struct RelitRun {
     std::vector<engine::StepReport> steps;
     std::vector<Lighting> approximations;  // L̃ after each step
 };
-[[nodiscard]] RelitRun relight_in_turn(const std::shared_ptr<const engine::Scene>& scene,
+[[nodiscard]] RelitRun relight_in_turn(const std::shared_ptr<const served::Scene>& scene,
                                        relighting::Strategy strategy,
                                        std::uint32_t columns,
                                        std::span<const Lighting> lightings);
 
 // The exact image of every lighting: the dense product of the stored transport.
 [[nodiscard]] std::vector<RelitImage> exact_images(
-    const std::shared_ptr<const engine::Scene>& scene, std::span<const Lighting> lightings);
+    const std::shared_ptr<const served::Scene>& scene, std::span<const Lighting> lightings);
 // Advances until exact.
 void run_until_exact(engine::Session& session);
 

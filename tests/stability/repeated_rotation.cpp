@@ -72,11 +72,11 @@ Outcome provoke(Workbench& workbench) {
     // Through the engine, an image for some of the turns.
     std::mt19937_64 random(workbench.seed());
     std::normal_distribution<float> normal;
-    engine::Session session(scene, {});
+    engine::Session session(scene->workspace(), {});
     const auto show = [&](const light::LightCubemap& cubemap) {
-        session.set_lighting(lighting_from_cubemap(cubemap));
+        session.set_target(lighting_from_cubemap(cubemap));
         run_until_exact(session);
-        return image_of(session);
+        return image_of(scene->view(), session);
     };
     const RelitImage start_image = show(start);
     const double start_energy = total_energy(start).y;

@@ -49,7 +49,7 @@ Flicker flicker_of(const RelitRun& run, std::span<const RelitImage> exact) {
 }
 
 // Resets of one band at most, when the same lighting is sent again and again.
-double resets_at_rest(const std::shared_ptr<const engine::Scene>& scene,
+double resets_at_rest(const std::shared_ptr<const served::Scene>& scene,
                       std::span<const Lighting> moving) {
     constexpr std::size_t kAgain = 60;
     std::vector<Lighting> lightings(moving.begin(), moving.end());
@@ -57,7 +57,7 @@ double resets_at_rest(const std::shared_ptr<const engine::Scene>& scene,
     const RelitRun run = relight_in_turn(
         scene, {.method = relighting::Method::pbi, .priority = relighting::Priority::area},
         kColumns, lightings);
-    std::vector<double> resets(scene->band_count());
+    std::vector<double> resets(scene->columns().band_count());
     for (std::size_t i = moving.size(); i < run.steps.size(); ++i) {
         for (std::size_t band = 0; band < resets.size(); ++band) {
             resets[band] += (run.steps[i].bands_reset >> band) & 1U;

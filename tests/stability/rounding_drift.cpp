@@ -1,7 +1,7 @@
 // A light of 10⁵ goes on and off while the sky turns, edit upon edit, and nothing ever rests.
 #include "protocol/relighting/budget.h"
 #include "protocol/relighting/strategy.h"
-#include "server/engine/band_images.h"
+#include "server/engine/sums/band_sums.h"
 #include "server/light/procedural_environment.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -64,7 +64,7 @@ struct Drift {
 };
 
 void raise(Drift& worst,
-           const engine::Scene& scene,
+           const served::Scene& scene,
            std::span<const float> sums,
            std::span<const float> lighting) {
     const auto exact = test::dense_product(scene.transport(), lighting);
@@ -74,18 +74,18 @@ void raise(Drift& worst,
 }
 
 // The worst of some checks, each at the end of a period, long after the lamp went out.
-Drift drift_of(const std::shared_ptr<const engine::Scene>& scene,
+Drift drift_of(const std::shared_ptr<const served::Scene>& scene,
                const LampScript& script,
                relighting::Method method,
                std::size_t edits,
                const std::function<void()>& check_is_done) {
-    engine::Session session(scene,
+    engine::Session session(scene->workspace(),
                             {.method = method, .priority = relighting::Priority::benefit});
     const relighting::Budget budget{
         .milliseconds = {}, .coefficients = kColumns, .target_error = 0};
     Drift worst;
     for (std::size_t edit = 0; edit < edits; ++edit) {
-        session.set_lighting(script.at(edit));
+        session.set_target(script.at(edit));
         session.advance(budget);
         if ((edit + 1) % (edits / kChecks) == 0) {
             raise(worst, *scene, session.sums(), session.approximation());
@@ -104,7 +104,7 @@ struct DriftOfMethod {
 // Each method on a thread of its own: an edit of so small an image is over before others could
 // help, and waking them for it takes as long as the edit.
 void measure(Workbench& workbench,
-             const std::shared_ptr<const engine::Scene>& scene,
+             const std::shared_ptr<const served::Scene>& scene,
              const LampScript& script,
              std::span<DriftOfMethod> methods) {
     std::size_t all = 0;
@@ -132,17 +132,17 @@ struct Uncompensated {
     Drift drift;
     RelitImage image;
 };
-Uncompensated add_without_end(const engine::Scene& scene,
+Uncompensated add_without_end(const served::Scene& scene,
                               const LampScript& script,
                               std::size_t edits) {
-    engine::BandImages images(scene);
+    engine::BandSums images(scene.stored_operator());
     Lighting shown(script.at(0).size());
     std::vector<engine::ColumnChange> changes;
     for (std::size_t edit = 0; edit < edits; ++edit) {
         const Lighting& wanted = script.at(edit);
         changes.clear();
-        const std::size_t count = scene.coefficient_count();
-        for (const std::uint32_t j : scene.columns_by_band()) {
+        const std::size_t count = scene.columns().count();
+        for (const std::uint32_t j : scene.columns().by_band()) {
             changes.push_back({.column = j,
                                .from = {shown[j], shown[count + j], shown[2 * count + j]},
                                .to = {wanted[j], wanted[count + j], wanted[2 * count + j]}});

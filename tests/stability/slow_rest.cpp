@@ -39,10 +39,10 @@ double sum_of(const std::vector<double>& values) {
 }
 
 // Σ_j Σ_c |ΔL(j,c)|·‖T_j‖: by the triangle inequality, the most that an image can move.
-double longest_step(const engine::Scene& scene,
+double longest_step(const served::Scene& scene,
                     std::span<const float> before,
                     std::span<const float> after) {
-    const std::size_t count = scene.coefficient_count();
+    const std::size_t count = scene.columns().count();
     double sum = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const auto colour = static_cast<std::uint32_t>(i / count);
@@ -52,7 +52,7 @@ double longest_step(const engine::Scene& scene,
     return sum;
 }
 
-Rest rest_of(const std::shared_ptr<const engine::Scene>& scene,
+Rest rest_of(const std::shared_ptr<const served::Scene>& scene,
              relighting::Strategy strategy,
              const Lighting& first,
              const Lighting& wanted,
@@ -60,20 +60,20 @@ Rest rest_of(const std::shared_ptr<const engine::Scene>& scene,
     const double exact_norm = norm(exact);
     const engine::SelectionBudget budget{.columns = kColumns,
                                          .bytes = std::numeric_limits<std::uint64_t>::max()};
-    engine::Session session(scene, strategy);
-    session.set_lighting(first);
+    engine::Session session(scene->workspace(), strategy);
+    session.set_target(first);
     run_until_exact(session);
-    session.set_lighting(wanted);
+    session.set_target(wanted);
     engine::StepReport step = session.advance_incrementally(budget);
     Rest rest;
-    RelitImage before = image_of(session);
+    RelitImage before = image_of(scene->view(), session);
     double error = distance(before, exact) / exact_norm;
     Lighting shown(session.approximation().begin(), session.approximation().end());
     const double all = sum_of(band_l1(*scene, wanted));
     double missing = sum_of(band_l1(*scene, wanted, shown));
     while (step.remaining > 0) {
         step = session.advance_incrementally(budget);
-        const RelitImage after = image_of(session);
+        const RelitImage after = image_of(scene->view(), session);
         const double next_error = distance(after, exact) / exact_norm;
         const double next_missing = sum_of(band_l1(*scene, wanted, session.approximation()));
         rest.lighting_rise = std::max(rest.lighting_rise, (next_missing - missing) / all);

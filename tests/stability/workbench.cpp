@@ -12,7 +12,7 @@ namespace relume::stability {
 
 Workbench::Workbench(Options options) : options_(std::move(options)), cache_(options_.cache) {}
 
-std::shared_ptr<const engine::Scene> Workbench::baked(const std::string& builtin,
+std::shared_ptr<const served::Scene> Workbench::baked(const std::string& builtin,
                                                       const SceneSize& size) {
     const std::string image = fmt::format("{}x{}", size.width, size.height);
     std::string name =
@@ -39,7 +39,7 @@ std::shared_ptr<const engine::Scene> Workbench::baked(const std::string& builtin
     return scene;
 }
 
-std::shared_ptr<const engine::Scene> Workbench::tiny(std::uint32_t channels) {
+std::shared_ptr<const served::Scene> Workbench::tiny(std::uint32_t channels) {
     const std::string name = fmt::format("tiny-{}", channels);
     auto& scene = scenes_[name];
     if (!scene) {
@@ -47,7 +47,7 @@ std::shared_ptr<const engine::Scene> Workbench::tiny(std::uint32_t channels) {
         const test::ScratchDirectory scratch;
         const auto directory = scratch.path() / (name + ".relume");
         test::write_tiny_transport(directory, {.channels = channels});
-        scene = std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+        scene = std::make_shared<const served::Scene>(transport::Transport::open(directory));
     }
     return scene;
 }

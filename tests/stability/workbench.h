@@ -1,7 +1,7 @@
 // What the failures share: how much effort to spend, and scenes that are made when missing.
 #pragma once
 
-#include "server/engine/scene.h"
+#include "server/scene/scene.h"
 #include "tests/support/scene_cache.h"
 
 #include <cstdint>
@@ -52,16 +52,16 @@ class Workbench {
     void progress(std::string_view what, double part) const { options_.progress(what, part); }
 
     // Baked when it is not in the cache, which takes seconds.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> baked(const std::string& builtin,
+    [[nodiscard]] std::shared_ptr<const served::Scene> baked(const std::string& builtin,
                                                              const SceneSize& size = {});
     // Random transport of 40×24 pixels and 6×8×8 lights in all encodings
     // (tests/support/tiny_transport.h), in a tenth of a second.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> tiny(std::uint32_t channels);
+    [[nodiscard]] std::shared_ptr<const served::Scene> tiny(std::uint32_t channels);
 
   private:
     Options options_;
     test::SceneCache cache_;
-    std::map<std::string, std::shared_ptr<const engine::Scene>> scenes_;
+    std::map<std::string, std::shared_ptr<const served::Scene>> scenes_;
 };
 
 }  // namespace relume::stability

@@ -12,9 +12,9 @@ namespace relume::test {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<const engine::Scene> open_if_whole(const fs::path& directory) {
+std::shared_ptr<const served::Scene> open_if_whole(const fs::path& directory) {
     try {
-        return std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+        return std::make_shared<const served::Scene>(transport::Transport::open(directory));
     } catch (const transport::TransportError&) {
         return nullptr;
     }
@@ -24,7 +24,7 @@ SceneCache::SceneCache(fs::path folder) : folder_(std::move(folder)) {
     fs::create_directories(folder_);
 }
 
-std::shared_ptr<const engine::Scene> SceneCache::baked(
+std::shared_ptr<const served::Scene> SceneCache::baked(
     const std::string& name, const std::vector<std::string>& arguments) {
     const fs::path directory = folder_ / (name + ".relume");
     if (auto scene = open_if_whole(directory)) {
@@ -34,7 +34,7 @@ std::shared_ptr<const engine::Scene> SceneCache::baked(
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"-o", directory.string()});
     run_to_end(RELUME_BAKE, words, folder_, name);
-    return std::make_shared<const engine::Scene>(transport::Transport::open(directory));
+    return std::make_shared<const served::Scene>(transport::Transport::open(directory));
 }
 
 }  // namespace relume::test

@@ -1,7 +1,7 @@
 // Scenes made when they are missing, and kept in a folder.
 #pragma once
 
-#include "server/engine/scene.h"
+#include "server/scene/scene.h"
 
 #include <filesystem>
 #include <memory>
@@ -11,7 +11,7 @@
 namespace relume::test {
 
 // Null when it is not there, or of a format or version that is not today's.
-[[nodiscard]] std::shared_ptr<const engine::Scene> open_if_whole(
+[[nodiscard]] std::shared_ptr<const served::Scene> open_if_whole(
     const std::filesystem::path& directory);
 
 // The folder is not renewed by itself when the baker changes: delete it. A scene that today's
@@ -23,7 +23,7 @@ class SceneCache {
 
     // NAME.relume in the folder; baked with `arguments` of relume-bake when it is not whole,
     // which is said on standard error. Throws std::runtime_error with what the baker said.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> baked(
+    [[nodiscard]] std::shared_ptr<const served::Scene> baked(
         const std::string& name, const std::vector<std::string>& arguments);
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

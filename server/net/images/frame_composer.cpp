@@ -1,6 +1,5 @@
 #include "server/net/images/frame_composer.h"
 
-#include "server/engine/relit_image.h"
 #include "server/light/background.h"
 
 #include <tbb/blocked_range.h>
@@ -31,8 +30,11 @@ void look(const light::Background& background,
 
 }  // namespace
 
-FrameComposer::FrameComposer(const SkyPixels& sky, const transport::TileGrid& image)
-    : sky_(sky), image_(image), background_(sky.size(), Imath::V3f(0)) {}
+FrameComposer::FrameComposer(const view::ImageView& view, const SkyPixels& sky)
+    : view_(view),
+      sky_(sky),
+      image_(view.image()),
+      background_(sky.size(), Imath::V3f(0)) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
@@ -61,18 +63,18 @@ void FrameComposer::set_background(const wire::Background& background,
 // Calls take(index of the first pixel, linear pixels) for parts of rows that together are the
 // image, in no order and at the same time.
 template <typename Take>
-void FrameComposer::for_each_row(const engine::Session& session, const Take& take) const {
+void FrameComposer::for_each_row(std::span<const float> sums, const Take& take) const {
     const std::uint32_t runs_x = (image_.tiles_x() + kTilesPerRun - 1) / kTilesPerRun;
     tbb::parallel_for(std::uint32_t{0}, runs_x * image_.tiles_y(), [&](std::uint32_t run) {
         const std::uint32_t first = run % runs_x * kTilesPerRun;
-        const engine::TileRun tiles{.row = run / runs_x,
+        const view::TileRun tiles{.row = run / runs_x,
                                     .first = first,
                                     .last = std::min(first + kTilesPerRun, image_.tiles_x())};
-        const engine::PixelRect pixels = engine::pixels_of(image_, tiles);
+        const view::PixelRect pixels = view::pixels_of(image_, tiles);
         const std::size_t row_floats = std::size_t{3} * pixels.width;
         thread_local std::vector<float> rgb;
         rgb.resize(row_floats * pixels.height);
-        session.write_tiles(tiles, rgb);
+        view_.write_tiles(sums, tiles, rgb);
         for (std::uint32_t y = 0; y < pixels.height; ++y) {
             const std::span<float> row = std::span(rgb).subspan(y * row_floats, row_floats);
             add_background(pixels.left, pixels.top + y, row);
@@ -99,7 +101,7 @@ void FrameComposer::add_background(std::uint32_t x,
     }
 }
 
-void FrameComposer::compose(const engine::Session& session,
+void FrameComposer::compose(std::span<const float> sums,
                             std::span<const DisplayTable* const> displays,
                             bool half_planes) {
     const std::size_t pixel_count = std::size_t{image_.width} * image_.height;
@@ -113,7 +115,7 @@ void FrameComposer::compose(const engine::Session& session,
         half_.has_alpha = has_alpha_;
         half_.values.resize(pixel_count * half_.plane_count());
     }
-    for_each_row(session, [&](std::size_t index, std::span<const float> rgb) {
+    for_each_row(sums, [&](std::size_t index, std::span<const float> rgb) {
         for (std::size_t i = 0; i < displays.size(); ++i) {
             displays[i]->codes(rgb, std::span(codes_[i]).subspan(3 * index, rgb.size()));
         }

@@ -3,10 +3,10 @@
 
 #include "protocol/wire/half_image.h"
 #include "protocol/wire/room_state.h"
-#include "server/engine/session.h"
 #include "server/light/light_rig.h"
 #include "server/net/images/display_table.h"
 #include "server/net/images/sky_pixels.h"
+#include "server/view/image_view.h"
 
 #include <cstdint>
 #include <span>
@@ -18,7 +18,8 @@ namespace relume::net {
 // between stay in the cache. Not thread-safe; spreads its work over oneTBB.
 class FrameComposer {
   public:
-    FrameComposer(const SkyPixels& sky, const transport::TileGrid& image);
+    // Keeps references to both, which are of one scene.
+    FrameComposer(const view::ImageView& view, const SkyPixels& sky);
 
     // Of every picture: nobody else is asked for it.
     [[nodiscard]] std::uint32_t width() const { return image_.width; }
@@ -29,10 +30,10 @@ class FrameComposer {
     void set_background(const wire::Background& background, const light::LightRig& rig);
     [[nodiscard]] bool has_alpha() const { return has_alpha_; }
 
-    // Puts the session's image and the background together: as code values for a JPEG of each
+    // Puts the view's image of the sums and the background together: as code values for a JPEG of each
     // display, over black where transparent; and, where `half_planes`, as linear radiance in
     // half floats, premultiplied where transparent.
-    void compose(const engine::Session& session,
+    void compose(std::span<const float> sums,
                  std::span<const DisplayTable* const> displays,
                  bool half_planes);
     // Of the last `compose`, display by display: interleaved, row by row from the top,
@@ -44,12 +45,13 @@ class FrameComposer {
 
   private:
     template <typename Take>
-    void for_each_row(const engine::Session& session, const Take& take) const;
+    void for_each_row(std::span<const float> sums, const Take& take) const;
     // Pixels from `index` on.
     void put_half(std::size_t index, std::span<const float> rgb);
     // To the pixels of a row from x on.
     void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
 
+    const view::ImageView& view_;
     const SkyPixels& sky_;
     const transport::TileGrid image_;
     bool has_alpha_ = false;

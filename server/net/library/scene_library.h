@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/wire/scene_summary.h"
-#include "server/engine/scene.h"
+#include "server/scene/scene.h"
 #include "server/net/images/sky_pixels.h"
 #include "server/net/library/followed_folder.h"
 
@@ -24,7 +24,7 @@ namespace relume::net {
 struct ServedScene {
     std::string name;
     std::filesystem::path directory;
-    std::shared_ptr<const engine::Scene> engine;
+    std::shared_ptr<const served::Scene> scene;
     SkyPixels sky;
 
     // What clients are told of it.

@@ -75,8 +75,8 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
                      Clock::duration ceiling)
     : scene_(std::move(scene)),
       metrics_(metrics),
-      session_(scene_->engine, relighting::Strategy{}),
-      composer_(std::make_shared<FrameComposer>(scene_->sky, scene_->engine->image())),
+      session_(scene_->scene->workspace(), relighting::Strategy{}),
+      composer_(std::make_shared<FrameComposer>(scene_->scene->view(), scene_->sky)),
       budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
@@ -113,15 +113,15 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
 bool Relighter::set_light(const wire::RoomState& state,
                           const NamedEnvironments& environments,
                           std::vector<wire::ErrorMessage>& problems) {
-    const std::uint32_t n = scene_->engine->face_resolution();
+    const std::uint32_t n = scene_->scene->face_resolution();
     light::LightRig rig = rig_from_state(state, environments, n, problems);
     if (state_ && rig == rig_) {
         return false;
     }
     rig_ = std::move(rig);
     light::evaluate(rig_, n, cubemap_);
-    light::lighting_coefficients(cubemap_, scene_->engine->projection(), coefficients_);
-    session_.set_lighting(coefficients_);
+    light::lighting_coefficients(cubemap_, scene_->scene->projection(), coefficients_);
+    session_.set_target(coefficients_);
     pixels_changed();
     return true;
 }
@@ -133,7 +133,7 @@ void Relighter::pixels_changed() {
 
 void Relighter::advance_together(std::span<Relighter* const> relighters) {
     const Clock::time_point begin = Clock::now();
-    std::vector<engine::SessionTurn> slices;
+    std::vector<engine::SessionStep> slices;
     for (Relighter* relighter : relighters) {
         slices.push_back({.session = &relighter->session_,
                           .budget = relighter->budget_.for_slice(relighter->state_->budget,
@@ -165,7 +165,7 @@ bool Relighter::step_is_complete() const {
 
 void Relighter::compose(const ImageForms& forms, bool settled) {
     const Clock::time_point begin = Clock::now();
-    composer_->compose(session_, displays_.of(forms.displays, state_->display),
+    composer_->compose(session_.sums(), displays_.of(forms.displays, state_->display),
                        forms.half_planes);
     const Clock::duration spent = Clock::now() - begin;
     metrics_.observe_compose(seconds(spent));

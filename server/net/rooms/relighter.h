@@ -47,7 +47,7 @@ class Relighter {
     // The image holds what the budget allows, and may be shown.
     [[nodiscard]] bool step_is_complete() const;
     // The image is still of the light before.
-    [[nodiscard]] bool shows_state_before() const { return session_.shows_lighting_before(); }
+    [[nodiscard]] bool shows_state_before() const { return session_.shows_target_before(); }
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
     [[nodiscard]] double stated_error() const { return session_.stated_error(); }

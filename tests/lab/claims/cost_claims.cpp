@@ -48,16 +48,16 @@ Claim time_claim(Evidence& evidence, std::uint32_t terms, double overhead) {
 
 Claim memory_claim(Evidence& evidence) {
     constexpr double kPart = 0.08;
-    const engine::Scene& scene = *evidence.demo().haar;
+    const served::Scene& scene = *evidence.demo().haar;
     const LightRun run =
         evidence.run(evidence.demo(), evidence.lights().front(), "slow-fast-slow", {"pbi-30"});
     std::uint64_t held = 0;
     for (const Record& record : records_of(run.findings.records, "pbi-30-area")) {
         held = std::max(held, record.band_bytes);
     }
-    const std::size_t image = scene.sum_count() * sizeof(float);
+    const std::size_t image = scene.stored_operator().sum_count() * sizeof(float);
     const std::size_t lighting =
-        transport::kColours * scene.coefficient_count() * sizeof(float);
+        transport::kColours * scene.columns().count() * sizeof(float);
     const auto extra = static_cast<double>(held + lighting);
     const auto transport = static_cast<double>(scene.transport().total_bytes());
     const double part = extra / transport;
@@ -71,8 +71,8 @@ Claim memory_claim(Evidence& evidence) {
             "together {:.1f} % of {:.1f} MB of transport; an image for each of {} bands, as in "
             "the paper, would be {:.2f} MB",
             run.light, static_cast<double>(held) / 1e6, static_cast<double>(lighting) / 1e6,
-            100 * part, transport / 1e6, scene.band_count(),
-            static_cast<double>(scene.band_count() * image) / 1e6),
+            100 * part, transport / 1e6, scene.columns().band_count(),
+            static_cast<double>(scene.columns().band_count() * image) / 1e6),
         .beside = "",
         .holds = holds,
         .why = holds ? ""

@@ -50,7 +50,7 @@ std::vector<Sweep> sweeps_of(Evidence& evidence,
 Claim photographed_light_claim(Evidence& evidence, const LabScene& scene) {
     // What 200 of 24,576 leave of fig. 3's image.
     constexpr double kAccurate = 0.022;
-    const auto percent = static_cast<std::uint32_t>(scene.haar->coefficient_count() / 100);
+    const auto percent = static_cast<std::uint32_t>(scene.haar->columns().count() / 100);
     const std::vector<Sweep> sweeps = sweeps_of(evidence, scene, evidence.lights());
     const bool holds = std::all_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) {
         return at_terms(sweep.wavelets, percent).error.l2 <= kAccurate;

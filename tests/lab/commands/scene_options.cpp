@@ -30,7 +30,7 @@ void SceneOptions::add_to(CLI::App& command) {
 
 LabScene SceneOptions::scene() const {
     return {
-        .haar = std::make_shared<const engine::Scene>(transport::Transport::open(transport)),
+        .haar = std::make_shared<const served::Scene>(transport::Transport::open(transport)),
         .sh_transport = sh_transport};
 }
 

@@ -23,7 +23,7 @@ LabScene demo_scene(const SeedsOptions& options) {
     constexpr std::uint32_t kSide = 192;
     return {.haar = options.transport.empty()
                         ? LabScenes(options.cache).scene("table", kSide)
-                        : std::make_shared<const engine::Scene>(
+                        : std::make_shared<const served::Scene>(
                               transport::Transport::open(options.transport)),
             .sh_transport = options.sh_transport};
 }

@@ -21,20 +21,21 @@ using transport::kColours;
 // The exact image of a light, from a session that is given time until it is at rest.
 class Reference {
   public:
-    explicit Reference(const std::shared_ptr<const engine::Scene>& scene)
-        : session_(scene, {}) {}
+    explicit Reference(const std::shared_ptr<const served::Scene>& scene)
+        : scene_(scene), session_(scene->workspace(), {}) {}
 
     void write_image(std::span<const float> lighting, std::span<float> rgb) {
-        session_.set_lighting(lighting);
+        session_.set_target(lighting);
         while (!session_.exact()) {
             session_.advance(kAllAtOnce);
         }
-        session_.write_image(rgb);
+        scene_->view().write_image(session_.sums(), rgb);
     }
 
   private:
     static constexpr relighting::Budget kAllAtOnce{
         .milliseconds = 1e6, .coefficients = std::nullopt, .target_error = 0};
+    std::shared_ptr<const served::Scene> scene_;
     engine::Session session_;
 };
 
@@ -161,9 +162,9 @@ class Entrant {
 }  // namespace
 
 Findings run_experiment(const Experiment& experiment) {
-    const engine::Scene& scene = *experiment.scene.haar;
+    const served::Scene& scene = *experiment.scene.haar;
     const std::size_t values =
-        kColours * std::size_t{scene.image().width} * scene.image().height;
+        kColours * std::size_t{scene.view().image().width} * scene.view().image().height;
     std::vector<float> reference_image(values);
     std::vector<float> lighting;
     light::LightCubemap radiance(scene.face_resolution());
@@ -172,7 +173,7 @@ Findings run_experiment(const Experiment& experiment) {
     for (const Method& method : experiment.methods) {
         entrants.emplace_back(method, experiment.scene, values);
     }
-    TemporalBands temporal_bands(scene.bands());
+    TemporalBands temporal_bands(scene.columns().bands());
     Findings findings;
     for (std::uint32_t i = 0; i < experiment.sequence.images; ++i) {
         light::evaluate(rig_of_image(experiment.sequence, experiment.environments, i),
@@ -182,7 +183,7 @@ Findings run_experiment(const Experiment& experiment) {
         reference.write_image(lighting, reference_image);
         const Truth truth{.light = {.radiance = radiance, .haar = lighting},
                           .image = reference_image,
-                          .width = scene.image().width};
+                          .width = scene.view().image().width};
         const bool keep = std::find(experiment.pictures.begin(), experiment.pictures.end(),
                                     i) != experiment.pictures.end();
         if (keep) {

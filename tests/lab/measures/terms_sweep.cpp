@@ -48,7 +48,7 @@ std::vector<TermsCurve> sweep_terms(const Experiment& experiment,
     std::vector<TermsCurve> curves;
     for (const std::string& form : forms) {
         Experiment first = experiment;
-        first.methods = methods_of_form(form, experiment.scene.haar->coefficient_count());
+        first.methods = methods_of_form(form, experiment.scene.haar->columns().count());
         first.sequence.images = 1;
         curves.push_back({.name = form, .records = run_experiment(first).records});
     }

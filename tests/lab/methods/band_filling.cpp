@@ -30,11 +30,11 @@ struct Band {
     [[nodiscard]] double error() const { return left[taken]; }
 };
 
-Band band_of(const engine::Scene& scene,
-             const engine::Lighting& lighting,
+Band band_of(const served::Scene& scene,
+             const engine::SignalState& lighting,
              std::uint32_t index) {
     Band band;
-    for (const std::uint32_t column : scene.columns_of_band(index)) {
+    for (const std::uint32_t column : scene.columns().of_band(index)) {
         const engine::ColumnChange change = lighting.difference(column);
         if (!change.is_nothing()) {
             band.differences.push_back({.size = size_of(change), .change = change});
@@ -49,9 +49,9 @@ Band band_of(const engine::Scene& scene,
     return band;
 }
 
-double size_of_light(const engine::Scene& scene, const engine::Lighting& lighting) {
+double size_of_light(const served::Scene& scene, const engine::SignalState& lighting) {
     double size = 0;
-    for (std::size_t column = 0; column < scene.coefficient_count(); ++column) {
+    for (std::size_t column = 0; column < scene.columns().count(); ++column) {
         size += size_of(lighting.whole(column));
     }
     return size;
@@ -61,13 +61,13 @@ class BandFilling final : public PlanMaker {
   public:
     explicit BandFilling(std::uint32_t columns) : columns_(columns) {}
 
-    void make(const engine::Scene& scene,
-              const engine::Lighting& lighting,
+    void make(const served::Scene& scene,
+              const engine::SignalState& lighting,
               engine::Plan& plan) override {
         std::vector<Band> bands;
         std::size_t differing = 0;
         double left = 0;
-        for (std::uint32_t b = 0; b < scene.band_count(); ++b) {
+        for (std::uint32_t b = 0; b < scene.columns().band_count(); ++b) {
             bands.push_back(band_of(scene, lighting, b));
             differing += bands.back().differences.size();
             left += bands.back().error();
@@ -97,7 +97,7 @@ class BandFilling final : public PlanMaker {
         }
     }
 
-    static void write_plan(const engine::Scene& scene,
+    static void write_plan(const served::Scene& scene,
                            const std::vector<Band>& bands,
                            std::size_t differing,
                            engine::Plan& plan) {
@@ -109,7 +109,7 @@ class BandFilling final : public PlanMaker {
             const auto first = static_cast<std::ptrdiff_t>(plan.changes.size());
             for (std::size_t i = 0; i < band.taken; ++i) {
                 plan.changes.push_back(band.differences[i].change);
-                plan.bytes += scene.transport().column_bytes(plan.changes.back().column);
+                plan.bytes += scene.columns().bytes(plan.changes.back().column);
             }
             std::sort(plan.changes.begin() + first, plan.changes.end(),
                       [](const engine::ColumnChange& a, const engine::ColumnChange& b) {

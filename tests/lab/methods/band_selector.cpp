@@ -26,11 +26,11 @@ struct Places {
     std::size_t count = 0;
 };
 
-std::vector<Places> places_of_bands(const engine::Scene& scene) {
+std::vector<Places> places_of_bands(const served::Scene& scene) {
     std::vector<Places> bands;
     std::size_t first = 0;
-    for (std::uint32_t band = 0; band < scene.band_count(); ++band) {
-        bands.push_back({.first = first, .count = scene.columns_of_band(band).size()});
+    for (std::uint32_t band = 0; band < scene.columns().band_count(); ++band) {
+        bands.push_back({.first = first, .count = scene.columns().of_band(band).size()});
         first += bands.back().count;
     }
     return bands;
@@ -144,10 +144,10 @@ class ExhaustiveSelector final : public BandSelector {
     std::uint32_t bands_to_reset(const BandChoice& choice) override {
         std::uint32_t best = 0;
         double least = std::numeric_limits<double>::infinity();
-        for (std::uint32_t mask = 0; mask < 1U << choice.scene.band_count(); ++mask) {
+        for (std::uint32_t mask = 0; mask < 1U << choice.scene.columns().band_count(); ++mask) {
             plan_.bands_to_reset = mask;
-            selection_.choose(choice.scene, choice.lighting, choice.ranking,
-                              choice.scene.places(), choice.budget, plan_);
+            selection_.choose(choice.scene.columns(), choice.lighting, choice.ranking,
+                              choice.scene.columns().places(), choice.budget, plan_);
             const double error = remaining_lighting_error(choice, plan_, norm_);
             if (error < least) {
                 least = error;
@@ -167,7 +167,7 @@ class ExhaustiveSelector final : public BandSelector {
 
 double remaining_lighting_error(const BandChoice& choice, const engine::Plan& plan, Norm norm) {
     // The changes come in the order of places, so that one walk meets them all.
-    const std::span<const std::uint32_t> columns = choice.scene.columns_by_band();
+    const std::span<const std::uint32_t> columns = choice.scene.columns().by_band();
     double error = 0;
     auto next = plan.changes.begin();
     for (std::size_t place = 0; place < columns.size(); ++place) {
@@ -175,7 +175,7 @@ double remaining_lighting_error(const BandChoice& choice, const engine::Plan& pl
             ++next;
             continue;
         }
-        const bool begins_anew = plan.resets(choice.scene.bands()[columns[place]]);
+        const bool begins_anew = plan.resets(choice.scene.columns().bands()[columns[place]]);
         error += error_from_importance(begins_anew ? choice.ranking.from_nothing()[place]
                                                    : choice.ranking.as_shown()[place],
                                        norm);

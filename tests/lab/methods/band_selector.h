@@ -1,11 +1,11 @@
 // Which bands begin anew: the selectors of [Overbeck06T 6.2].
 #pragma once
 
-#include "server/engine/lighting.h"
-#include "server/engine/plan.h"
-#include "server/engine/ranking.h"
-#include "server/engine/scene.h"
-#include "server/engine/selection.h"
+#include "server/engine/choosing/ranking.h"
+#include "server/engine/choosing/selection.h"
+#include "server/engine/columns/plan.h"
+#include "server/scene/scene.h"
+#include "server/engine/columns/signal_state.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,8 +14,8 @@ namespace relume::lab {
 
 // What a selector looks at; `ranking` is of this lighting.
 struct BandChoice {
-    const engine::Scene& scene;
-    const engine::Lighting& lighting;
+    const served::Scene& scene;
+    const engine::SignalState& lighting;
     const engine::Ranking& ranking;
     engine::SelectionBudget budget;  // in columns
 };

@@ -1,7 +1,7 @@
 // A method of relighting by name: "pbi-30", "nwa-100-area", "guarded-400kB-benefit".
 #pragma once
 
-#include "server/engine/scene.h"
+#include "server/scene/scene.h"
 #include "tests/lab/methods/contestant.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace relume::lab {
 // What contestants draw on.
 struct LabScene {
     // Reference images are the dense products of this transport.
-    std::shared_ptr<const engine::Scene> haar;
+    std::shared_ptr<const served::Scene> haar;
     // The same view baked in spherical harmonics; empty: there is none.
     std::filesystem::path sh_transport;
 };

@@ -1,20 +1,19 @@
 #include "tests/lab/methods/planned_contestant.h"
 
-#include "server/engine/relit_image.h"
 #include "tests/lab/methods/light_radiance.h"
 
 #include <utility>
 
 namespace relume::lab {
 
-PlannedContestant::PlannedContestant(std::shared_ptr<const engine::Scene> scene,
+PlannedContestant::PlannedContestant(std::shared_ptr<const served::Scene> scene,
                                      std::unique_ptr<PlanMaker> plan_maker)
     : scene_(std::move(scene)),
       plan_maker_(std::move(plan_maker)),
-      lighting_(*scene_),
-      lit_(*scene_),
-      images_(*scene_),
-      error_(*scene_) {}
+      lighting_(scene_->columns()),
+      lit_(scene_->columns()),
+      images_(scene_->stored_operator()),
+      error_(scene_->columns()) {}
 
 void PlannedContestant::set_light(const ImageLight& light) {
     light::lighting_coefficients(light.radiance, scene_->projection(), target_);
@@ -36,13 +35,13 @@ Step PlannedContestant::step() {
 }
 
 void PlannedContestant::write_image(std::span<float> rgb) const {
-    engine::write_relit_image(*scene_, images_.total(), rgb);
+    scene_->view().write_image(images_.total(), rgb);
 }
 
 LightingView PlannedContestant::lighting() const {
     return {.target = lighting_.target(),
             .approximation = lighting_.approximation(),
-            .bands = scene_->bands()};
+            .bands = scene_->columns().bands()};
 }
 
 void PlannedContestant::write_radiance(light::LightCubemap& out) const {

@@ -1,12 +1,12 @@
 // A method made of the engine's parts that chooses by rules of its own.
 #pragma once
 
-#include "server/engine/band_images.h"
 #include "server/engine/error_estimate.h"
-#include "server/engine/lighting.h"
-#include "server/engine/lit_columns.h"
-#include "server/engine/plan.h"
-#include "server/engine/scene.h"
+#include "server/engine/columns/plan.h"
+#include "server/scene/scene.h"
+#include "server/engine/columns/signal_state.h"
+#include "server/engine/columns/significant_columns.h"
+#include "server/engine/sums/band_sums.h"
 #include "tests/lab/methods/contestant.h"
 
 #include <memory>
@@ -25,14 +25,14 @@ class PlanMaker {
     virtual ~PlanMaker() = default;
 
     // Replaces the plan's content.
-    virtual void make(const engine::Scene& scene,
-                      const engine::Lighting& lighting,
+    virtual void make(const served::Scene& scene,
+                      const engine::SignalState& lighting,
                       engine::Plan& plan) = 0;
 };
 
 class PlannedContestant final : public Contestant {
   public:
-    PlannedContestant(std::shared_ptr<const engine::Scene> scene,
+    PlannedContestant(std::shared_ptr<const served::Scene> scene,
                       std::unique_ptr<PlanMaker> plan_maker);
 
     void set_light(const ImageLight& light) override;
@@ -42,12 +42,12 @@ class PlannedContestant final : public Contestant {
     void write_radiance(light::LightCubemap& out) const override;
 
   private:
-    std::shared_ptr<const engine::Scene> scene_;
+    std::shared_ptr<const served::Scene> scene_;
     std::unique_ptr<PlanMaker> plan_maker_;
-    engine::Lighting lighting_;
-    engine::LitColumns lit_;
+    engine::SignalState lighting_;
+    engine::SignificantColumns lit_;
     engine::Plan plan_;
-    engine::BandImages images_;
+    engine::BandSums images_;
     engine::ErrorEstimate error_;
     std::vector<float> target_;  // planar [3][N]
 };

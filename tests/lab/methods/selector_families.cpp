@@ -1,7 +1,7 @@
 // PBI with the band selectors of the thesis, made of the engine's parts.
 #include "protocol/relighting/strategy.h"
-#include "server/engine/ranking.h"
-#include "server/engine/selection.h"
+#include "server/engine/choosing/ranking.h"
+#include "server/engine/choosing/selection.h"
 #include "tests/lab/methods/band_selector.h"
 #include "tests/lab/methods/families.h"
 #include "tests/lab/methods/planned_contestant.h"
@@ -21,13 +21,13 @@ class SelectorPlanMaker final : public PlanMaker {
     SelectorPlanMaker(const WaveletTerms& terms, std::unique_ptr<BandSelector> selector)
         : budget_(terms.budget), priority_(terms.priority), selector_(std::move(selector)) {}
 
-    void make(const engine::Scene& scene,
-              const engine::Lighting& lighting,
+    void make(const served::Scene& scene,
+              const engine::SignalState& lighting,
               engine::Plan& plan) override {
-        ranking_.rank(scene, lighting, scene.weights(priority_));
+        ranking_.rank(scene.columns(), lighting, scene.columns().weights(priority_));
         plan.bands_to_reset = selector_->bands_to_reset(
             {.scene = scene, .lighting = lighting, .ranking = ranking_, .budget = budget_});
-        selection_.choose(scene, lighting, ranking_, scene.places(), budget_, plan);
+        selection_.choose(scene.columns(), lighting, ranking_, scene.columns().places(), budget_, plan);
     }
 
   private:

@@ -8,20 +8,21 @@
 
 namespace relume::lab {
 
-SessionContestant::SessionContestant(std::shared_ptr<const engine::Scene> scene,
+SessionContestant::SessionContestant(std::shared_ptr<const served::Scene> scene,
                                      relighting::Strategy strategy,
                                      const engine::SelectionBudget& budget,
                                      std::size_t coefficients)
-    : session_(std::move(scene), strategy), budget_(budget), coefficients_(coefficients) {}
+    : scene_(std::move(scene)),
+      session_(scene_->workspace(), strategy), budget_(budget), coefficients_(coefficients) {}
 
 void SessionContestant::set_light(const ImageLight& light) {
-    light::lighting_coefficients(light.radiance, session_.scene().projection(), target_);
-    const std::size_t count = session_.scene().coefficient_count();
+    light::lighting_coefficients(light.radiance, scene_->projection(), target_);
+    const std::size_t count = scene_->columns().count();
     for (std::size_t first = 0; first < target_.size(); first += count) {
         std::fill(target_.begin() + static_cast<std::ptrdiff_t>(first + coefficients_),
                   target_.begin() + static_cast<std::ptrdiff_t>(first + count), 0.0F);
     }
-    session_.set_lighting(target_);
+    session_.set_target(target_);
 }
 
 Step SessionContestant::step() {
@@ -36,11 +37,11 @@ Step SessionContestant::step() {
 LightingView SessionContestant::lighting() const {
     return {.target = target_,
             .approximation = session_.approximation(),
-            .bands = session_.scene().bands()};
+            .bands = scene_->columns().bands()};
 }
 
 void SessionContestant::write_radiance(light::LightCubemap& out) const {
-    radiance_from_coefficients(session_.approximation(), session_.scene().projection(), out);
+    radiance_from_coefficients(session_.approximation(), scene_->projection(), out);
 }
 
 }  // namespace relume::lab

@@ -24,7 +24,7 @@ MethodFamily session_family(relighting::Method method, std::string summary) {
                         return std::make_unique<SessionContestant>(
                             scene.haar,
                             relighting::Strategy{.method = method, .priority = terms.priority},
-                            terms.budget, scene.haar->coefficient_count());
+                            terms.budget, scene.haar->columns().count());
                     }};
             }};
 }

@@ -18,22 +18,22 @@ namespace {
 using Kind = basis::LightBasis::Kind;
 
 // The lab's scene as it was baked in spherical harmonics of `order` or more.
-std::shared_ptr<const engine::Scene> sh_scene(const LabScene& scene, std::uint32_t order) {
+std::shared_ptr<const served::Scene> sh_scene(const LabScene& scene, std::uint32_t order) {
     if (scene.sh_transport.empty()) {
         throw std::runtime_error(
             "methods in spherical harmonics need --sh-transport, the same view baked with "
             "relume-bake --basis sh");
     }
     auto baked =
-        std::make_shared<const engine::Scene>(transport::Transport::open(scene.sh_transport));
-    const basis::LightBasis& found = baked->light_basis();
+        std::make_shared<const served::Scene>(transport::Transport::open(scene.sh_transport));
+    const basis::LightBasis& found = baked->projection().basis();
     if (found.kind() != Kind::spherical_harmonics || found.order() < order) {
         throw std::runtime_error(fmt::format(
             "{}: basis {}, expected spherical harmonics of order {} or more",
             scene.sh_transport.string(), transport::json_from(found).dump(), order));
     }
-    const transport::TileGrid& image = baked->image();
-    const transport::TileGrid& expected = scene.haar->image();
+    const transport::TileGrid& image = baked->view().image();
+    const transport::TileGrid& expected = scene.haar->view().image();
     if (image.width != expected.width || image.height != expected.height ||
         found.face_resolution() != scene.haar->face_resolution()) {
         throw std::runtime_error(fmt::format(
@@ -76,7 +76,7 @@ Method incremental_method(std::string_view rest) {
     const WaveletTerms terms = wavelet_terms_from_text(rest);
     return {.label = "pbi-sh-" + terms.text, .enter = [terms](const LabScene& scene) {
                 auto baked = sh_scene(scene, 1);
-                const std::size_t count = baked->coefficient_count();
+                const std::size_t count = baked->columns().count();
                 return std::make_unique<SessionContestant>(
                     std::move(baked),
                     relighting::Strategy{.method = relighting::Method::pbi,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/relighting/strategy.h"
-#include "server/engine/selection.h"
+#include "server/engine/choosing/selection.h"
 
 #include <string>
 #include <string_view>

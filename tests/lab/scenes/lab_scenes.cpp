@@ -18,7 +18,7 @@ std::string default_scene_cache() {
     return RELUME_LAB_CACHE;
 }
 
-std::shared_ptr<const engine::Scene> LabScenes::scene(const std::string& name,
+std::shared_ptr<const served::Scene> LabScenes::scene(const std::string& name,
                                                       std::uint32_t side) {
     return scenes_.baked(fmt::format("{}-{}-32", name, side), arguments(name, side));
 }

@@ -18,7 +18,7 @@ class LabScenes {
     explicit LabScenes(const std::string& cache) : scenes_(cache) {}
 
     // Square. Throws as test::SceneCache does.
-    [[nodiscard]] std::shared_ptr<const engine::Scene> scene(const std::string& name,
+    [[nodiscard]] std::shared_ptr<const served::Scene> scene(const std::string& name,
                                                              std::uint32_t side = 128);
 
     // The folder of the same view in spherical harmonics of order 20.

@@ -68,10 +68,10 @@ class Drag {
         }
         for (std::size_t i = 0; i < sessions; ++i) {
             sessions_.push_back(std::make_unique<Session>(
-                scene_.scene(),
+                scene_.scene()->workspace(),
                 relighting::Strategy{.method = method,
                                      .priority = relighting::Priority::benefit}));
-            turns_.push_back({.session = sessions_.back().get(),
+            steps_.push_back({.session = sessions_.back().get(),
                               .budget = {.milliseconds = std::nullopt, .coefficients = 20},
                               .report = {}});
         }
@@ -81,17 +81,17 @@ class Drag {
         constexpr int kSteps = 3;
         for (const std::vector<float>& light : lights_) {
             for (const auto& session : sessions_) {
-                session->set_lighting(light);
+                session->set_target(light);
             }
             for (int step = 0; step < kSteps; ++step) {
-                Session::advance_together(turns_);
+                Session::advance_together(steps_);
             }
         }
     }
 
     void come_to_rest() {
         while (!sessions_.front()->exact()) {
-            Session::advance_together(turns_);
+            Session::advance_together(steps_);
         }
     }
 
@@ -99,7 +99,7 @@ class Drag {
     TinyScene scene_;
     std::vector<std::vector<float>> lights_;
     std::vector<std::unique_ptr<Session>> sessions_;
-    std::vector<SessionTurn> turns_;
+    std::vector<SessionStep> steps_;
 };
 
 class Allocation : public testing::TestWithParam<relighting::Method> {};

@@ -1,4 +1,4 @@
-#include "server/engine/band_sketches.h"
+#include "server/engine/choosing/band_sketches.h"
 
 #include "tests/support/random_lighting.h"
 #include "tests/unit/engine/engine_fixture.h"
@@ -11,14 +11,14 @@ namespace relume::engine {
 namespace {
 
 // Σ_j scale·value·L over the columns of one band, in the plainest way.
-std::vector<double> plain_sketch(const Scene& scene,
+std::vector<double> plain_sketch(const served::Scene& scene,
                                  const transport::Sketch& sketch,
                                  std::span<const float> lighting,
                                  std::uint32_t band) {
     std::vector<double> sums(transport::kColours * std::size_t{sketch.rows()});
-    for (std::size_t j = 0; j < scene.coefficient_count(); ++j) {
-        for (std::uint32_t c = 0; scene.bands()[j] == band && c < transport::kColours; ++c) {
-            const double weight = double{lighting[c * scene.coefficient_count() + j]} *
+    for (std::size_t j = 0; j < scene.columns().count(); ++j) {
+        for (std::uint32_t c = 0; scene.columns().bands()[j] == band && c < transport::kColours; ++c) {
+            const double weight = double{lighting[c * scene.columns().count() + j]} *
                                   double{sketch.scale(j, c)};
             for (std::size_t r = 0; r < sketch.rows(); ++r) {
                 sums[c * sketch.rows() + r] += weight * sketch.values(j, c)[r];
@@ -53,16 +53,16 @@ void expect_near(std::span<const double> found, const std::vector<double>& expec
 
 TEST(BandSketches, HoldEveryBandOfALighting) {
     const TinyScene tiny({.channels = 3});
-    const Scene& scene = *tiny.scene();
+    const served::Scene& scene = *tiny.scene();
     const auto lighting = test::random_lighting(8, 1);
     for (const transport::Sketch* sketch :
          {&tiny.transport().stating_sketch(), &tiny.transport().choosing_sketch()}) {
-        BandSketches bands(scene, *sketch);
-        LitColumns lit(scene);
+        BandSketches bands(scene.columns(), *sketch);
+        SignificantColumns lit(scene.columns());
         lit.set(lighting);
         bands.set(lit);
         std::vector<double> total(transport::kColours * std::size_t{sketch->rows()});
-        for (std::uint32_t b = 0; b < scene.band_count(); ++b) {
+        for (std::uint32_t b = 0; b < scene.columns().band_count(); ++b) {
             const auto expected = plain_sketch(scene, *sketch, lighting, b);
             expect_near(bands.band(b), expected);
             for (std::size_t i = 0; i < total.size(); ++i) {
@@ -77,14 +77,14 @@ TEST(BandSketches, HoldEveryBandOfALighting) {
 // of the norm than is stated.
 TEST(BandSketches, LeaveOutOnlyWhatDoesNotCount) {
     const TinyScene tiny({.channels = 3});
-    const Scene& scene = *tiny.scene();
+    const served::Scene& scene = *tiny.scene();
     auto lighting = test::random_lighting(8, 3);
     for (std::size_t i = 0; i < lighting.size(); ++i) {
         lighting[i] *= i % 50 == 0 ? 1.0F : 1e-7F;
     }
-    BandSketches whole(scene, tiny.transport().stating_sketch());
-    BandSketches nearly(scene, tiny.transport().stating_sketch());
-    LitColumns lit(scene);
+    BandSketches whole(scene.columns(), tiny.transport().stating_sketch());
+    BandSketches nearly(scene.columns(), tiny.transport().stating_sketch());
+    SignificantColumns lit(scene.columns());
     lit.set(lighting);
     whole.set(lit);
     lit.set_nearly(lighting, kSurelyNegligible);
@@ -101,11 +101,11 @@ TEST(BandSketches, LeaveOutOnlyWhatDoesNotCount) {
 // However bright what came and went, updates in double precision leave nothing of it.
 TEST(BandSketches, KeepNothingOfALightThatIsGone) {
     const TinyScene tiny;
-    const Scene& scene = *tiny.scene();
+    const served::Scene& scene = *tiny.scene();
     const transport::Sketch& sketch = tiny.transport().choosing_sketch();
     const auto lighting = test::random_lighting(8, 2);
-    BandSketches bands(scene, sketch);
-    LitColumns lit(scene);
+    BandSketches bands(scene.columns(), sketch);
+    SignificantColumns lit(scene.columns());
     lit.set(lighting);
     bands.set(lit);
     const auto before = sum_of(bands);

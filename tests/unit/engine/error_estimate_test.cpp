@@ -10,8 +10,8 @@
 namespace relume::engine {
 namespace {
 
-LitColumns lit(const TinyScene& tiny, const std::vector<float>& lighting) {
-    LitColumns columns(*tiny.scene());
+SignificantColumns lit(const TinyScene& tiny, const std::vector<float>& lighting) {
+    SignificantColumns columns(tiny.scene()->columns());
     columns.set(lighting);
     return columns;
 }
@@ -30,7 +30,7 @@ double true_norm(const TinyScene& tiny, const std::vector<float>& lighting) {
 
 TEST(ErrorEstimate, IsNearTheTrueErrorForUnseenLighting) {
     const TinyScene tiny({.width = 64, .height = 64, .channels = 3});
-    ErrorEstimate estimate(*tiny.scene());
+    ErrorEstimate estimate(tiny.scene()->columns());
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         const auto target = test::random_lighting(8, seed);
         auto approximation = target;
@@ -49,19 +49,19 @@ TEST(ErrorEstimate, IsNearTheTrueErrorForUnseenLighting) {
 
 TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
     const TinyScene tiny;
-    const Scene& scene = *tiny.scene();
+    const served::Scene& scene = *tiny.scene();
     const auto target = test::random_lighting(8, 1);
-    ErrorEstimate changed(scene);
-    ErrorEstimate anew(scene);
+    ErrorEstimate changed(scene.columns());
+    ErrorEstimate anew(scene.columns());
     changed.set_target(lit(tiny, target));
     anew.set_target(lit(tiny, target));
     std::vector<float> approximation(target.size());
-    for (std::size_t j = 0; j < scene.coefficient_count(); j += 3) {
+    for (std::size_t j = 0; j < scene.columns().count(); j += 3) {
         Plan plan;
         ColumnChange& change =
             plan.changes.emplace_back(ColumnChange{.column = static_cast<std::uint32_t>(j)});
         for (std::size_t c = 0; c < transport::kColours; ++c) {
-            const std::size_t i = c * scene.coefficient_count() + j;
+            const std::size_t i = c * scene.columns().count() + j;
             change.to[c] = target[i];
             approximation[i] = target[i];
         }
@@ -73,20 +73,20 @@ TEST(ErrorEstimate, FollowsChangesAsIfComputedAnew) {
 
 TEST(ErrorEstimate, ForgetsABandThatIsReset) {
     const TinyScene tiny;
-    const Scene& scene = *tiny.scene();
-    const std::size_t count = scene.coefficient_count();
+    const served::Scene& scene = *tiny.scene();
+    const std::size_t count = scene.columns().count();
     const auto target = test::random_lighting(8, 4);
     // In the second band a light of 10⁶ that is then taken away.
     auto bright = target;
     auto without = target;
     for (std::size_t i = 0; i < target.size(); ++i) {
-        if (scene.bands()[i % count] == 1) {
+        if (scene.columns().bands()[i % count] == 1) {
             bright[i] = 1e6F;
             without[i] = 0;
         }
     }
-    ErrorEstimate reset(scene);
-    ErrorEstimate anew(scene);
+    ErrorEstimate reset(scene.columns());
+    ErrorEstimate anew(scene.columns());
     reset.set_target(lit(tiny, target));
     anew.set_target(lit(tiny, target));
     reset.set_approximation(lit(tiny, bright));
@@ -100,7 +100,7 @@ TEST(ErrorEstimate, ForgetsABandThatIsReset) {
 
 TEST(ErrorEstimate, KnowsNothingAndBlack) {
     const TinyScene tiny;
-    ErrorEstimate estimate(*tiny.scene());
+    ErrorEstimate estimate(tiny.scene()->columns());
     EXPECT_EQ(estimate.relative_l2(), 0) << "black shown, black wanted";
     const auto light = test::random_lighting(8, 2);
     estimate.set_target(lit(tiny, light));

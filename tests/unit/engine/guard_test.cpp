@@ -1,4 +1,4 @@
-#include "server/engine/guard.h"
+#include "server/engine/choosing/guard.h"
 
 #include "protocol/relighting/budget.h"
 #include "protocol/relighting/strategy.h"
@@ -20,15 +20,15 @@ constexpr std::uint64_t kAnyBytes = ~std::uint64_t{0};
 class GuardTest : public testing::Test {
   protected:
     TinyScene tiny_{{.width = 64, .height = 64, .channels = 3}};
-    const Scene& scene_ = *tiny_.scene();
-    Lighting lighting_{scene_};
-    LitColumns lit_{scene_};
+    const served::Scene& scene_ = *tiny_.scene();
+    SignalState lighting_{scene_.columns()};
+    SignificantColumns lit_{scene_.columns()};
     Ranking ranking_;
-    Guard guard_{scene_};
+    Guard guard_{scene_.columns()};
 
     const Plan& decide(const std::vector<float>& light, const SelectionBudget& budget) {
         lighting_.set_target(light);
-        ranking_.rank(scene_, lighting_, scene_.weights(relighting::Priority::benefit));
+        ranking_.rank(scene_.columns(), lighting_, scene_.columns().weights(relighting::Priority::benefit));
         lit_.set_nearly(light, kSurelyNegligible);
         return guard_.decide(lighting_, lit_, ranking_, budget);
     }
@@ -38,7 +38,7 @@ class GuardTest : public testing::Test {
     }
     // ‖T (L − L̃)‖ after a plan, tint applied, from the dense product.
     [[nodiscard]] double error_after(const Plan& plan) const {
-        Lighting lighting = lighting_;
+        SignalState lighting = lighting_;
         lighting.apply(plan);
         std::vector<float> difference(lighting.target().size());
         for (std::size_t i = 0; i < difference.size(); ++i) {
@@ -117,7 +117,7 @@ TEST_F(GuardTest, ComesHomeWhenTheSameLightIsGivenAgainAndAgain) {
     }
     const auto last = test::random_lighting(8, 99);
     carry_out(decide(last, {20, kAnyBytes}));
-    for (std::size_t step = 0; step < scene_.coefficient_count() / 20 + 1; ++step) {
+    for (std::size_t step = 0; step < scene_.columns().count() / 20 + 1; ++step) {
         const Plan plan = decide(last, {20, kAnyBytes});
         EXPECT_EQ(plan.bands_to_reset, 0U);
         carry_out(plan);
@@ -127,7 +127,7 @@ TEST_F(GuardTest, ComesHomeWhenTheSameLightIsGivenAgainAndAgain) {
 
 // What was forgotten is seen again: the decision is that of a guard that followed all along.
 TEST_F(GuardTest, DecidesTheSameAfterForgetting) {
-    Guard forgetful(scene_);
+    Guard forgetful(scene_.columns());
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const Plan plan = decide(test::random_lighting(8, seed, 1e4F), {40, kAnyBytes});
         forgetful.forget();
@@ -151,11 +151,11 @@ TEST(GuardedSession, IsNearerThanGoingOnAfterABrightLight) {
         .milliseconds = std::nullopt, .coefficients = 10, .target_error = 0};
     double stated[2] = {};
     for (const auto method : {relighting::Method::bi, relighting::Method::guarded}) {
-        Session session(tiny.scene(),
+        Session session(tiny.scene()->workspace(),
                         {.method = method, .priority = relighting::Priority::area});
-        session.set_lighting(test::random_lighting(8, 1, 1e6F));
+        session.set_target(test::random_lighting(8, 1, 1e6F));
         session.advance({.milliseconds = std::nullopt, .coefficients = 384, .target_error = 0});
-        session.set_lighting(test::random_lighting(8, 2, 1));
+        session.set_target(test::random_lighting(8, 2, 1));
         stated[method == relighting::Method::guarded] = session.advance(budget).stated_error;
     }
     EXPECT_GT(stated[0], 100);

@@ -1,4 +1,4 @@
-#include "server/engine/loose_columns.h"
+#include "server/engine/sums/loose_columns.h"
 
 #include "tests/unit/engine/engine_fixture.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Amounts = std::array<float, transport::kColours>;
 
-const Scene& scene() {
+const served::Scene& scene() {
     static const TinyScene tiny;
     return *tiny.scene();
 }
@@ -32,13 +32,13 @@ Amounts random_amounts() {
 // What total and bands' images hold of every column, carried along from the splits alone; and
 // what they should hold.
 struct Books {
-    std::vector<Amounts> shown = std::vector<Amounts>(scene().coefficient_count());
+    std::vector<Amounts> shown = std::vector<Amounts>(scene().columns().count());
     std::vector<Amounts> total = shown;
     std::vector<Amounts> held = shown;
 
     void clear(std::uint32_t bands_to_clear) {
         for (std::size_t j = 0; j < shown.size(); ++j) {
-            if (((bands_to_clear >> scene().bands()[j]) & 1U) != 0) {
+            if (((bands_to_clear >> scene().columns().bands()[j]) & 1U) != 0) {
                 add(total[j], held[j], -1);
                 held[j] = {};
                 shown[j] = {};
@@ -71,7 +71,7 @@ struct Books {
 std::vector<ColumnChange> random_changes(const Books& books) {
     const int one_in = *rc::gen::element(1, 2, 20, 200);
     std::vector<ColumnChange> changes;
-    for (const std::uint32_t j : scene().columns_by_band()) {
+    for (const std::uint32_t j : scene().columns().by_band()) {
         if (*rc::gen::inRange(0, one_in) == 0) {
             const ColumnChange change{
                 .column = j, .from = books.shown[j], .to = random_amounts()};
@@ -86,8 +86,8 @@ std::vector<ColumnChange> random_changes(const Books& books) {
 bool is_ordered(std::span<const ColumnChange> changes) {
     return std::is_sorted(changes.begin(), changes.end(),
                           [](const ColumnChange& a, const ColumnChange& b) {
-                              return std::tuple(scene().bands()[a.column], a.column) <
-                                     std::tuple(scene().bands()[b.column], b.column);
+                              return std::tuple(scene().columns().bands()[a.column], a.column) <
+                                     std::tuple(scene().columns().bands()[b.column], b.column);
                           });
 }
 
@@ -95,11 +95,11 @@ bool is_ordered(std::span<const ColumnChange> changes) {
 // to the bands' images to the rest of what is not loose, and no more is loose than is allowed.
 RC_GTEST_PROP(LooseColumns, AreWhatTheTotalHoldsAndBandsDoNot, ()) {
     Books books;
-    LooseColumns loose(scene());
+    LooseColumns loose(scene().stored_operator());
     LooseColumns::Split split;
     for (int round = *rc::gen::inRange(1, 6); round > 0; --round) {
         const auto bands_to_clear =
-            *rc::gen::inRange<std::uint32_t>(0, 1U << scene().band_count());
+            *rc::gen::inRange<std::uint32_t>(0, 1U << scene().columns().band_count());
         books.clear(bands_to_clear);
         const std::vector<ColumnChange> changes = random_changes(books);
         loose.update(bands_to_clear, changes, split);
@@ -109,19 +109,19 @@ RC_GTEST_PROP(LooseColumns, AreWhatTheTotalHoldsAndBandsDoNot, ()) {
         }
         RC_ASSERT(books.total == books.shown);
         std::vector<Amounts> not_loose = books.shown;
-        std::vector<std::uint64_t> bytes(scene().band_count());
+        std::vector<std::uint64_t> bytes(scene().columns().band_count());
         std::uint64_t largest = 0;
         for (const ColumnChange& column : loose.columns()) {
             RC_ASSERT(!column.is_nothing());
             RC_ASSERT(column.to == books.shown[column.column]);
             not_loose[column.column] = column.from;
-            const std::uint64_t size = scene().transport().column_bytes(column.column);
-            bytes[scene().bands()[column.column]] += size;
+            const std::uint64_t size = scene().columns().bytes(column.column);
+            bytes[scene().columns().bands()[column.column]] += size;
             largest = std::max(largest, size);
         }
         RC_ASSERT(books.held == not_loose);
         RC_ASSERT(*std::max_element(bytes.begin(), bytes.end()) <=
-                  LooseColumns::kLooseImages * scene().sum_count() * sizeof(float) + largest);
+                  LooseColumns::kLooseImages * scene().stored_operator().sum_count() * sizeof(float) + largest);
         RC_ASSERT(is_ordered(loose.columns()));
         RC_ASSERT(is_ordered(split.total_alone));
         RC_ASSERT(is_ordered(split.total_and_band));
@@ -130,10 +130,10 @@ RC_GTEST_PROP(LooseColumns, AreWhatTheTotalHoldsAndBandsDoNot, ()) {
 
 TEST(LooseColumns, GoToTheirBandWhenThereAreMany) {
     std::vector<ColumnChange> changes;
-    for (const std::uint32_t j : scene().columns_by_band()) {
+    for (const std::uint32_t j : scene().columns().by_band()) {
         changes.push_back({.column = j, .to = {1, 1, 1}});
     }
-    LooseColumns loose(scene());
+    LooseColumns loose(scene().stored_operator());
     LooseColumns::Split split;
     loose.update(0, changes, split);
     EXPECT_FALSE(split.total_alone.empty());

@@ -1,4 +1,4 @@
-#include "server/engine/selection.h"
+#include "server/engine/choosing/selection.h"
 
 #include "protocol/relighting/strategy.h"
 #include "tests/support/random_lighting.h"
@@ -17,8 +17,8 @@ constexpr std::uint64_t kAnyBytes = ~std::uint64_t{0};
 class SelectionTest : public testing::TestWithParam<relighting::Priority> {
   protected:
     TinyScene tiny_;
-    const Scene& scene_ = *tiny_.scene();
-    Lighting lighting_{scene_};
+    const served::Scene& scene_ = *tiny_.scene();
+    SignalState lighting_{scene_.columns()};
     Ranking ranking_;
     Selection selection_;
 
@@ -26,16 +26,16 @@ class SelectionTest : public testing::TestWithParam<relighting::Priority> {
     [[nodiscard]] Plan chosen(const SelectionBudget& budget, std::uint32_t bands_to_reset = 0) {
         Plan plan;
         plan.bands_to_reset = bands_to_reset;
-        ranking_.rank(scene_, lighting_, scene_.weights(GetParam()));
-        selection_.choose(scene_, lighting_, ranking_, scene_.places(), budget, plan);
+        ranking_.rank(scene_.columns(), lighting_, scene_.columns().weights(GetParam()));
+        selection_.choose(scene_.columns(), lighting_, ranking_, scene_.columns().places(), budget, plan);
         return plan;
     }
 
     [[nodiscard]] double importance(std::size_t j) const {
-        const auto weights = scene_.weights(GetParam());
+        const auto weights = scene_.columns().weights(GetParam());
         double sum = 0;
         for (std::size_t c = 0; c < transport::kColours; ++c) {
-            const std::size_t i = c * scene_.coefficient_count() + j;
+            const std::size_t i = c * scene_.columns().count() + j;
             const double weighted = double{weights[i]} * double{lighting_.target()[i]};
             sum += weighted * weighted;
         }
@@ -45,7 +45,7 @@ class SelectionTest : public testing::TestWithParam<relighting::Priority> {
 
 TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
     lighting_.set_target(test::random_lighting(scene_.face_resolution(), 5));
-    std::vector<double> all(scene_.coefficient_count());
+    std::vector<double> all(scene_.columns().count());
     for (std::size_t j = 0; j < all.size(); ++j) {
         all[j] = importance(j);
     }
@@ -58,8 +58,8 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
             EXPECT_GE(importance(change.column), all[columns - 1] * (1 - 1e-5));
         }
         EXPECT_TRUE(std::is_sorted(changes.begin(), changes.end(), [&](auto& a, auto& b) {
-            return std::pair(scene_.bands()[a.column], a.column) <
-                   std::pair(scene_.bands()[b.column], b.column);
+            return std::pair(scene_.columns().bands()[a.column], a.column) <
+                   std::pair(scene_.columns().bands()[b.column], b.column);
         }));
     }
 }
@@ -67,7 +67,7 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
 TEST(Benefit, IsTheEnergyAColumnAddsPerByte) {
     const TinyScene tiny;
     const auto& transport = tiny.transport();
-    const auto weights = tiny.scene()->weights(relighting::Priority::benefit);
+    const auto weights = tiny.scene()->columns().weights(relighting::Priority::benefit);
     for (std::size_t j = 0; j < transport.column_count(); ++j) {
         const double weight = weights[j];
         EXPECT_NEAR(weight * weight * transport.column_bytes(j), transport.energy(j, 0),
@@ -78,16 +78,16 @@ TEST(Benefit, IsTheEnergyAColumnAddsPerByte) {
 // At equal bytes no other priority promises to bring more energy into the image.
 TEST(Benefit, BringsTheMostEnergyForItsBytes) {
     const TinyScene tiny;
-    const Scene& scene = *tiny.scene();
-    Lighting lighting(scene);
+    const served::Scene& scene = *tiny.scene();
+    SignalState lighting(scene.columns());
     Ranking ranking;
     Selection selection;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         lighting.set_target(test::random_lighting(scene.face_resolution(), seed));
         const auto energy_within = [&](relighting::Priority priority) {
             Plan plan;
-            ranking.rank(scene, lighting, scene.weights(priority));
-            selection.choose(scene, lighting, ranking, scene.places(),
+            ranking.rank(scene.columns(), lighting, scene.columns().weights(priority));
+            selection.choose(scene.columns(), lighting, ranking, scene.columns().places(),
                              {~0U, scene.transport().total_bytes() / 8}, plan);
             double energy = 0;
             for (const ColumnChange& change : plan.changes) {
@@ -114,7 +114,7 @@ TEST_P(SelectionTest, StaysWithinTheBytesButTakesOne) {
     EXPECT_GT(within.bytes, budget / 2);
     std::uint64_t bytes = 0;
     for (const ColumnChange& change : within.changes) {
-        bytes += scene_.transport().column_bytes(change.column);
+        bytes += scene_.columns().bytes(change.column);
     }
     EXPECT_EQ(within.bytes, bytes);
     EXPECT_EQ(chosen({~0U, 0}).changes.size(), 1U);
@@ -135,7 +135,7 @@ TEST_P(SelectionTest, EqualLightingHasNoDifferences) {
 TEST_P(SelectionTest, ResetsAreWeighedAsIfCarriedOut) {
     const auto before = test::random_lighting(scene_.face_resolution(), 8);
     const auto after = test::random_lighting(scene_.face_resolution(), 9);
-    for (std::uint32_t mask = 0; mask < 1U << scene_.band_count(); ++mask) {
+    for (std::uint32_t mask = 0; mask < 1U << scene_.columns().band_count(); ++mask) {
         lighting_.set_target(before);
         lighting_.apply_all();
         lighting_.set_target(after);
@@ -167,13 +167,13 @@ TEST_P(SelectionTest, TheShortlistHoldsWhatIsChosenOfAll) {
                                           {100, all_bytes / 10},
                                           {~0U, 0},
                                           {~0U, kAnyBytes}}) {
-        for (std::uint32_t mask = 0; mask < 1U << scene_.band_count(); ++mask) {
+        for (std::uint32_t mask = 0; mask < 1U << scene_.columns().band_count(); ++mask) {
             const Plan of_all = chosen(budget, mask);
             std::vector<std::uint32_t> places;
-            ranking_.shortlist(scene_, budget, places);
+            ranking_.shortlist(scene_.columns(), budget, places);
             Plan of_shortlist;
             of_shortlist.bands_to_reset = mask;
-            selection_.choose(scene_, lighting_, ranking_, places, budget, of_shortlist);
+            selection_.choose(scene_.columns(), lighting_, ranking_, places, budget, of_shortlist);
             ASSERT_EQ(of_shortlist.changes.size(), of_all.changes.size());
             for (std::size_t i = 0; i < of_all.changes.size(); ++i) {
                 EXPECT_EQ(of_shortlist.changes[i].column, of_all.changes[i].column);
@@ -183,9 +183,9 @@ TEST_P(SelectionTest, TheShortlistHoldsWhatIsChosenOfAll) {
     }
 }
 
-// Lighting at the ends of what floats hold is ranked, not mistaken for equal.
+// SignalState at the ends of what floats hold is ranked, not mistaken for equal.
 TEST_P(SelectionTest, RanksWhatCannotBeSquared) {
-    std::vector<float> huge(scene_.coefficient_count() * transport::kColours,
+    std::vector<float> huge(scene_.columns().count() * transport::kColours,
                             kLargestCoefficient);
     lighting_.set_target(huge);
     lighting_.apply_all();
@@ -196,7 +196,7 @@ TEST_P(SelectionTest, RanksWhatCannotBeSquared) {
     lighting_.set_target(huge);
     const Plan plan = chosen({30, kAnyBytes});
     EXPECT_EQ(plan.changes.size(), 30U);
-    EXPECT_EQ(plan.differing_columns, scene_.coefficient_count());
+    EXPECT_EQ(plan.differing_columns, scene_.columns().count());
 }
 
 INSTANTIATE_TEST_SUITE_P(Priorities,

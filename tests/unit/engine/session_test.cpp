@@ -30,7 +30,7 @@ Budget coefficients(std::uint32_t count) {
 
 // Advances until at rest; fails when that takes more steps than there are coefficients, twice.
 void run_to_rest(Session& session, const Budget& budget) {
-    const std::size_t limit = 2 * session.scene().coefficient_count() + 10;
+    const std::size_t limit = 2 * session.workspace().columns().count() + 10;
     for (std::size_t i = 0; i < limit && !session.at_rest(budget); ++i) {
         session.advance(budget);
     }
@@ -57,12 +57,11 @@ Strategy arbitrary_strategy() {
 // the dense product of the lighting, and its bits depend on nothing else.
 RC_GTEST_PROP(Session, ReachesTheDenseProductFromAnyHistory, ()) {
     const TinyScene& tiny = scene_of(*rc::gen::element(1U, 3U));
-    Session session(tiny.scene(), arbitrary_strategy());
+    Session session(tiny.scene()->workspace(), arbitrary_strategy());
     const int edits = *rc::gen::inRange(0, 8);
     for (int i = 0; i < edits; ++i) {
         const float sun = *rc::gen::element(0.0F, 300.0F, 1e6F);
-        session.set_lighting(
-            test::random_lighting(8, *rc::gen::inRange<unsigned>(0, 1000), sun));
+        session.set_target(test::random_lighting(8, *rc::gen::inRange<unsigned>(0, 1000), sun));
         if (*rc::gen::arbitrary<bool>()) {
             session.set_strategy(arbitrary_strategy());
         }
@@ -72,24 +71,24 @@ RC_GTEST_PROP(Session, ReachesTheDenseProductFromAnyHistory, ()) {
         }
     }
     const auto last = test::random_lighting(8, 4711);
-    session.set_lighting(last);
+    session.set_target(last);
     run_to_rest(session, coefficients(*rc::gen::inRange(5U, 100U)));
     RC_ASSERT(session.exact());
     RC_ASSERT(copy(session.approximation()) == last);
     const auto dense = test::dense_product(tiny.transport(), last);
     RC_ASSERT(test::relative_l2(session.sums(), dense) < kExactTolerance);
 
-    Session fresh(tiny.scene(), {});
-    fresh.set_lighting(last);
+    Session fresh(tiny.scene()->workspace(), {});
+    fresh.set_target(last);
     run_to_rest(fresh, coefficients(1000));
     RC_ASSERT(copy(fresh.sums()) == copy(session.sums()));
 }
 
 TEST(Session, NonLinearApproximationWithAllTermsIsTheDenseProduct) {
     const TinyScene& tiny = scene_of(3);
-    Session session(tiny.scene(), {.method = Method::nwa, .priority = Priority::area});
+    Session session(tiny.scene()->workspace(), {.method = Method::nwa, .priority = Priority::area});
     const auto light = test::random_lighting(8, 1);
-    session.set_lighting(light);
+    session.set_target(light);
     session.advance(coefficients(384));
     EXPECT_FALSE(session.exact()) << "the first image is the method's own";
     EXPECT_LT(test::relative_l2(session.sums(), test::dense_product(tiny.transport(), light)),
@@ -99,12 +98,12 @@ TEST(Session, NonLinearApproximationWithAllTermsIsTheDenseProduct) {
 TEST(Session, NonLinearApproximationForgetsTheImageBefore) {
     const TinyScene& tiny = scene_of(1);
     const Strategy nwa{.method = Method::nwa, .priority = Priority::transport};
-    Session after_bright(tiny.scene(), nwa);
-    Session fresh(tiny.scene(), nwa);
-    after_bright.set_lighting(test::random_lighting(8, 1, 1e7F));
+    Session after_bright(tiny.scene()->workspace(), nwa);
+    Session fresh(tiny.scene()->workspace(), nwa);
+    after_bright.set_target(test::random_lighting(8, 1, 1e7F));
     after_bright.advance(coefficients(50));
     for (Session* session : {&after_bright, &fresh}) {
-        session->set_lighting(test::random_lighting(8, 2));
+        session->set_target(test::random_lighting(8, 2));
         session->advance(coefficients(50));
     }
     EXPECT_EQ(copy(after_bright.sums()), copy(fresh.sums()));
@@ -115,9 +114,9 @@ TEST(Session, NonLinearApproximationForgetsTheImageBefore) {
 TEST(Session, ShowsTheProductOfItsApproximation) {
     for (const Method method : {Method::nwa, Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(3);
-        Session session(tiny.scene(), {.method = method, .priority = Priority::transport});
+        Session session(tiny.scene()->workspace(), {.method = method, .priority = Priority::transport});
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
-            session.set_lighting(test::random_lighting(8, seed));
+            session.set_target(test::random_lighting(8, seed));
             session.advance(coefficients(30));
             const auto dense =
                 test::dense_product(tiny.transport(), copy(session.approximation()));
@@ -130,12 +129,12 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
     const TinyScene& tiny = scene_of(1);
     const auto bright = test::random_lighting(8, 1, 1e6F);
     const auto dim = test::random_lighting(8, 2, 1);
-    Session per_band(tiny.scene(), {.method = Method::pbi, .priority = Priority::area});
-    Session basic(tiny.scene(), {.method = Method::bi, .priority = Priority::area});
+    Session per_band(tiny.scene()->workspace(), {.method = Method::pbi, .priority = Priority::area});
+    Session basic(tiny.scene()->workspace(), {.method = Method::bi, .priority = Priority::area});
     for (Session* session : {&per_band, &basic}) {
-        session->set_lighting(bright);
+        session->set_target(bright);
         session->advance(coefficients(384));
-        session->set_lighting(dim);
+        session->set_target(dim);
     }
     EXPECT_EQ(per_band.advance(coefficients(10)).bands_reset, 0b111U);
     EXPECT_EQ(basic.advance(coefficients(10)).bands_reset, 0U);
@@ -147,14 +146,14 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
 TEST(Session, ABrightLightLeavesNothingBehindWhileEditsGoOn) {
     for (const Method method : {Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(1);
-        Session session(tiny.scene(), {.method = method, .priority = Priority::transport});
+        Session session(tiny.scene()->workspace(), {.method = method, .priority = Priority::transport});
         const auto dim = test::random_lighting(8, 3, 0);
         for (int i = 0; i < 200; ++i) {
             auto light = dim;
             if (i % 2 == 0) {
                 light[7] += 1e5F;
             }
-            session.set_lighting(light);
+            session.set_target(light);
             session.advance(coefficients(384));
         }
         const auto dense = test::dense_product(tiny.transport(), copy(session.approximation()));
@@ -170,9 +169,9 @@ TEST(Session, IsTheSameOnAnyNumberOfThreads) {
         const tbb::global_control at_least(tbb::global_control::max_allowed_parallelism, 5);
         tbb::task_arena arena(threads);
         arena.execute([&] {
-            Session session(tiny.scene(), {});
+            Session session(tiny.scene()->workspace(), {});
             for (std::uint64_t seed = 0; seed < 5; ++seed) {
-                session.set_lighting(test::random_lighting(8, seed));
+                session.set_target(test::random_lighting(8, seed));
                 session.advance(coefficients(40));
             }
             if (first.empty()) {
@@ -185,9 +184,9 @@ TEST(Session, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Session, StatesZeroOnlyWhenExactAndThenDoesNothing) {
     const TinyScene& tiny = scene_of(1);
-    Session session(tiny.scene(), {});
+    Session session(tiny.scene()->workspace(), {});
     EXPECT_TRUE(session.exact()) << "no light, black image";
-    session.set_lighting(test::random_lighting(8, 1));
+    session.set_target(test::random_lighting(8, 1));
     EXPECT_GT(session.advance(coefficients(10)).stated_error, 0);
     run_to_rest(session, coefficients(10));
     const StepReport report = session.advance(coefficients(10));
@@ -200,10 +199,10 @@ TEST(Session, StatesZeroOnlyWhenExactAndThenDoesNothing) {
 
 TEST(Session, RestsWhenTheTargetErrorIsMet) {
     const TinyScene& tiny = scene_of(1);
-    Session session(tiny.scene(), {});
+    Session session(tiny.scene()->workspace(), {});
     Budget budget = coefficients(5);
     budget.target_error = 0.2;
-    session.set_lighting(test::random_lighting(8, 1));
+    session.set_target(test::random_lighting(8, 1));
     EXPECT_FALSE(session.at_rest(budget));
     run_to_rest(session, budget);
     EXPECT_FALSE(session.exact());
@@ -213,25 +212,25 @@ TEST(Session, RestsWhenTheTargetErrorIsMet) {
 
 TEST(Session, AMillisecondBudgetConverges) {
     const TinyScene& tiny = scene_of(1);
-    Session session(tiny.scene(), {});
+    Session session(tiny.scene()->workspace(), {});
     const Budget budget{.milliseconds = 0.1, .coefficients = std::nullopt, .target_error = 0};
-    session.set_lighting(test::random_lighting(8, 1));
+    session.set_target(test::random_lighting(8, 1));
     run_to_rest(session, budget);
     EXPECT_TRUE(session.exact());
 }
 
 TEST(Session, RefusesLightingThatIsNotOne) {
     const TinyScene& tiny = scene_of(1);
-    Session session(tiny.scene(), {});
+    Session session(tiny.scene()->workspace(), {});
     auto light = test::random_lighting(8, 1);
-    EXPECT_THROW(session.set_lighting(std::span(light).first(light.size() - 1)),
+    EXPECT_THROW(session.set_target(std::span(light).first(light.size() - 1)),
                  std::invalid_argument);
     for (const float wrong :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
           1.01F * kLargestCoefficient, -1.01F * kLargestCoefficient}) {
         auto broken = light;
         broken[100] = wrong;
-        EXPECT_THROW(session.set_lighting(broken), std::invalid_argument);
+        EXPECT_THROW(session.set_target(broken), std::invalid_argument);
     }
     EXPECT_TRUE(session.exact()) << "unchanged by what was refused";
 }
@@ -241,21 +240,21 @@ TEST(Session, RefusesLightingThatIsNotOne) {
 TEST(Session, IsExactAtEveryImageWhenThereIsTimeForTheWholeProduct) {
     const TinyScene& tiny = scene_of(3);
     const Budget ample{.milliseconds = 1000, .coefficients = std::nullopt, .target_error = 0};
-    Session session(tiny.scene(), {});
-    Session patient(tiny.scene(), {});
+    Session session(tiny.scene()->workspace(), {});
+    Session patient(tiny.scene()->workspace(), {});
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
         const auto light = test::random_lighting(8, seed);
-        session.set_lighting(light);
+        session.set_target(light);
         const StepReport report = session.advance(ample);
         EXPECT_TRUE(report.exact);
         EXPECT_EQ(report.stated_error, 0);
-        patient.set_lighting(light);
+        patient.set_target(light);
         run_to_rest(patient, coefficients(10));
         EXPECT_EQ(copy(session.sums()), copy(patient.sums()));
     }
     const auto light = test::random_lighting(8, 9);
     for (Session* each : {&session, &patient}) {
-        each->set_lighting(light);
+        each->set_target(light);
         each->advance(coefficients(10));
     }
     EXPECT_FALSE(session.exact());
@@ -265,12 +264,12 @@ TEST(Session, IsExactAtEveryImageWhenThereIsTimeForTheWholeProduct) {
 
 TEST(Session, WritesTheTintedImageInPixelOrder) {
     const TinyScene& tiny = scene_of(3);
-    Session session(tiny.scene(), {});
-    session.set_lighting(test::random_lighting(8, 1));
+    Session session(tiny.scene()->workspace(), {});
+    session.set_target(test::random_lighting(8, 1));
     run_to_rest(session, coefficients(384));
-    const auto& image = tiny.scene()->image();
+    const auto& image = tiny.scene()->view().image();
     std::vector<float> rgb(3UL * image.width * image.height);
-    session.write_image(rgb);
+    tiny.scene()->view().write_image(session.sums(), rgb);
     std::vector<double> receivers(session.sums().begin(), session.sums().end());
     test::receivers_from_sums(receivers);
     for (const auto& [x, y] : {std::pair{0U, 0U}, {39U, 23U}, {17U, 16U}}) {
@@ -283,7 +282,7 @@ TEST(Session, WritesTheTintedImageInPixelOrder) {
         }
     }
     rgb.pop_back();
-    EXPECT_THROW(session.write_image(rgb), std::invalid_argument);
+    EXPECT_THROW(tiny.scene()->view().write_image(session.sums(), rgb), std::invalid_argument);
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ struct Pair {
     Budget budget;
 };
 
-void set_lighting(Pair& pair, std::span<const float> lighting) {
-    pair.together->set_lighting(lighting);
-    pair.alone->set_lighting(lighting);
+void set_target(Pair& pair, std::span<const float> lighting) {
+    pair.together->set_target(lighting);
+    pair.alone->set_target(lighting);
 }
 
 // One step of some of them, in one sweep, and of each by itself.
 void step(std::vector<Pair*> pairs) {
-    std::vector<SessionTurn> turns;
+    std::vector<SessionStep> turns;
     for (Pair* pair : pairs) {
         turns.push_back(
             {.session = pair->together.get(), .budget = pair->budget, .report = {}});
@@ -70,8 +70,8 @@ RC_GTEST_PROP(SessionsTogether, GetTheBitsTheyGetAlone, ()) {
         const relighting::Strategy strategy{
             .method = *rc::gen::element(Method::nwa, Method::bi, Method::pbi, Method::guarded),
             .priority = *rc::gen::element(Priority::area, Priority::benefit)};
-        pair.together = std::make_unique<Session>(tiny.scene(), strategy);
-        pair.alone = std::make_unique<Session>(tiny.scene(), strategy);
+        pair.together = std::make_unique<Session>(tiny.scene()->workspace(), strategy);
+        pair.alone = std::make_unique<Session>(tiny.scene()->workspace(), strategy);
         // Too few to come home, where the company may decide how many steps that takes.
         pair.budget = coefficients(*rc::gen::inRange(1U, 60U));
     }
@@ -80,8 +80,8 @@ RC_GTEST_PROP(SessionsTogether, GetTheBitsTheyGetAlone, ()) {
         for (Pair& pair : pairs) {
             if (*rc::gen::weightedElement<bool>({{1, true}, {2, false}})) {
                 const float sun = *rc::gen::element(0.0F, 300.0F, 1e6F);
-                set_lighting(
-                    pair, test::random_lighting(8, *rc::gen::inRange<unsigned>(0, 1000), sun));
+                set_target(pair,
+                           test::random_lighting(8, *rc::gen::inRange<unsigned>(0, 1000), sun));
             }
             if (*rc::gen::weightedElement<bool>({{4, true}, {1, false}})) {
                 company.push_back(&pair);
@@ -102,16 +102,16 @@ TEST(SessionsTogether, ComeHomeFromDifferentPlaces) {
     std::vector<Pair> pairs(19);
     std::vector<Pair*> all;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        pairs[i].together = std::make_unique<Session>(tiny.scene(), relighting::Strategy{});
-        pairs[i].alone = std::make_unique<Session>(tiny.scene(), relighting::Strategy{});
+        pairs[i].together = std::make_unique<Session>(tiny.scene()->workspace(), relighting::Strategy{});
+        pairs[i].alone = std::make_unique<Session>(tiny.scene()->workspace(), relighting::Strategy{});
         pairs[i].budget = coefficients(100);
         auto light = test::random_lighting(8, i);
         if (i % 2 == 1) {
             std::fill(light.begin() + static_cast<std::ptrdiff_t>(i), light.end(), 0.0F);
         }
-        set_lighting(pairs[i], light);
+        set_target(pairs[i], light);
         all.push_back(&pairs[i]);
-        std::vector<SessionTurn> turns;
+        std::vector<SessionStep> turns;
         for (Pair* pair : all) {
             turns.push_back(
                 {.session = pair->together.get(), .budget = pair->budget, .report = {}});
@@ -119,7 +119,7 @@ TEST(SessionsTogether, ComeHomeFromDifferentPlaces) {
         Session::advance_together(turns);
     }
     for (int i = 0; i < 1000; ++i) {
-        std::vector<SessionTurn> turns;
+        std::vector<SessionStep> turns;
         for (Pair* pair : all) {
             turns.push_back(
                 {.session = pair->together.get(), .budget = pair->budget, .report = {}});

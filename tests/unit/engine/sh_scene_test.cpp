@@ -31,7 +31,7 @@ const std::vector<float>& light(std::uint64_t seed) {
     static std::map<std::uint64_t, std::vector<float>> lights;
     auto& made = lights[seed];
     if (made.empty()) {
-        made = test::random_lighting(sh_scene().scene()->light_basis(), seed);
+        made = test::random_lighting(sh_scene().scene()->projection().basis(), seed);
     }
     return made;
 }
@@ -41,18 +41,18 @@ constexpr SelectionBudget columns(std::uint32_t count) {
 }
 
 TEST(ShScene, HasABandAnL) {
-    const Scene& scene = *sh_scene().scene();
-    EXPECT_EQ(scene.coefficient_count(), kOrder * kOrder);
-    EXPECT_EQ(scene.band_count(), kOrder);
-    for (std::size_t j = 0; j < scene.coefficient_count(); ++j) {
-        EXPECT_EQ(scene.bands()[j], static_cast<std::uint8_t>(std::sqrt(double(j))));
+    const served::Scene& scene = *sh_scene().scene();
+    EXPECT_EQ(scene.columns().count(), kOrder * kOrder);
+    EXPECT_EQ(scene.columns().band_count(), kOrder);
+    for (std::size_t j = 0; j < scene.columns().count(); ++j) {
+        EXPECT_EQ(scene.columns().bands()[j], static_cast<std::uint8_t>(std::sqrt(double(j))));
     }
 }
 
 // The tolerance of band l is in proportion to l, and the priority its inverse.
 TEST(ShScene, ToleranceGrowsWithTheBand) {
-    const Scene& scene = *sh_scene().scene();
-    const auto weights = scene.weights(Priority::area);
+    const served::Scene& scene = *sh_scene().scene();
+    const auto weights = scene.columns().weights(Priority::area);
     for (std::uint32_t l = 1; l < kOrder; ++l) {
         EXPECT_NEAR(weights[basis::sh_index(l, 0)] * static_cast<float>(l), weights[0], 1e-6F);
     }
@@ -64,16 +64,16 @@ RC_GTEST_PROP(ShScene, ReachesTheDenseProductFromAnyHistory, ()) {
         *rc::gen::element(Method::nwa, Method::bi, Method::pbi, Method::guarded);
     const auto priority = *rc::gen::element(Priority::area, Priority::none, Priority::transport,
                                             Priority::benefit);
-    Session session(sh_scene().scene(), {.method = method, .priority = priority});
+    Session session(sh_scene().scene()->workspace(), {.method = method, .priority = priority});
     const int edits = *rc::gen::inRange(0, 5);
     for (int i = 0; i < edits; ++i) {
-        session.set_lighting(light(*rc::gen::inRange<unsigned>(0, 8)));
+        session.set_target(light(*rc::gen::inRange<unsigned>(0, 8)));
         for (int step = *rc::gen::inRange(0, 4); step > 0; --step) {
             (void)session.advance_incrementally(columns(*rc::gen::inRange(1U, 100U)));
         }
     }
     const auto& last = light(9);
-    session.set_lighting(last);
+    session.set_target(last);
     const Budget budget{.milliseconds = std::nullopt, .coefficients = 40, .target_error = 0};
     for (int step = 0; step < 100 && !session.exact(); ++step) {
         (void)session.advance(budget);
@@ -92,8 +92,8 @@ TEST(ShScene, LowOrderOfAHigherBakeIsTheProductOfTheTruncatedLight) {
             truncated[i] = 0;
         }
     }
-    Session session(sh_scene().scene(), {.method = Method::nwa, .priority = Priority::none});
-    session.set_lighting(truncated);
+    Session session(sh_scene().scene()->workspace(), {.method = Method::nwa, .priority = Priority::none});
+    session.set_target(truncated);
     const StepReport step = session.advance_incrementally(columns(basis::sh_count(kLow)));
     EXPECT_EQ(step.applied, basis::sh_count(kLow));
     EXPECT_EQ(step.remaining, 0U);
@@ -104,13 +104,13 @@ TEST(ShScene, LowOrderOfAHigherBakeIsTheProductOfTheTruncatedLight) {
 
 // Per-band increments with a budget come home when the light rests, and say how far they are.
 TEST(ShScene, PerBandIncrementalConvergesAndStatesItsError) {
-    Session session(sh_scene().scene(), {.method = Method::pbi, .priority = Priority::area});
+    Session session(sh_scene().scene()->workspace(), {.method = Method::pbi, .priority = Priority::area});
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
         const auto& target = light(seed);
         auto exact = test::dense_product(sh_scene().transport(), target);
         test::receivers_from_sums(exact);
         const auto tint = sh_scene().transport().tint();
-        session.set_lighting(target);
+        session.set_target(target);
         StepReport step;
         for (int i = 0; i < 10; ++i) {
             step = session.advance_incrementally(columns(40));

@@ -1,4 +1,4 @@
-#include "server/engine/strip_matrix.h"
+#include "server/engine/operators/strip_matrix.h"
 
 #include "protocol/transport/cell_strips.h"
 #include "tests/support/random_lighting.h"
@@ -72,13 +72,13 @@ TEST(CellStrips, AddUpToTheCell) {
 TEST(StripMatrix, MultipliesToTheDenseProduct) {
     for (const std::uint32_t channels : {1U, 3U}) {
         const TinyScene tiny({.channels = channels, .seed = 3});
-        const StripMatrix& strips = tiny.scene()->strips();
+        const StripMatrix& strips = tiny.scene()->stored_operator().strips();
         const std::vector<float> lighting = test::random_lighting(8, 4);
-        ColumnWeights weights;
+        TransportOperator::Weights weights;
         strips.set_weights(tiny.transport(), lighting, weights);
-        std::vector<float> sums(tiny.scene()->sum_count());
+        std::vector<float> sums(tiny.scene()->stored_operator().sum_count());
         for (std::uint32_t block = 0; block < strips.block_count(); ++block) {
-            for (std::uint32_t band = 0; band < tiny.scene()->band_count(); ++band) {
+            for (std::uint32_t band = 0; band < tiny.scene()->columns().band_count(); ++band) {
                 const StripMatrix::Member member{.weights = &weights,
                                                  .sums = &sums[block * kColours * kBlockSize]};
                 strips.multiply(block, band, {&member, 1});
@@ -92,13 +92,13 @@ TEST(StripMatrix, MultipliesToTheDenseProduct) {
 // A band that a block is said to have nothing in adds nothing to it.
 TEST(StripMatrix, KnowsTheBandsOfABlock) {
     const TinyScene tiny({.seed = 5, .density = 0.02F});
-    const StripMatrix& strips = tiny.scene()->strips();
+    const StripMatrix& strips = tiny.scene()->stored_operator().strips();
     const std::vector<float> lighting = test::random_lighting(8, 4);
-    ColumnWeights weights;
+    TransportOperator::Weights weights;
     strips.set_weights(tiny.transport(), lighting, weights);
     std::size_t empty = 0;
     for (std::uint32_t block = 0; block < strips.block_count(); ++block) {
-        for (std::uint32_t band = 0; band < tiny.scene()->band_count(); ++band) {
+        for (std::uint32_t band = 0; band < tiny.scene()->columns().band_count(); ++band) {
             std::vector<float> sums(kColours * kBlockSize);
             const StripMatrix::Member member{.weights = &weights, .sums = sums.data()};
             strips.multiply(block, band, {&member, 1});

@@ -19,11 +19,11 @@ class BandFillingTest : public testing::Test {
   protected:
     BandFillingTest()
         : scene_({.light_basis = basis::LightBasis::spherical_harmonics(kOrder, kFace)}),
-          lighting_(*scene_.scene()) {}
+          lighting_(scene_.scene()->columns()) {}
 
     void set_target(std::uint64_t seed) {
         std::vector<float> target = test::random_lighting(kFace, seed);
-        target.resize(transport::kColours * scene_.scene()->coefficient_count());
+        target.resize(transport::kColours * scene_.scene()->columns().count());
         lighting_.set_target(target);
     }
     engine::Plan plan_with(std::uint32_t columns) {
@@ -35,11 +35,11 @@ class BandFillingTest : public testing::Test {
     [[nodiscard]] double error(std::uint32_t band) const {
         double left = 0;
         double light = 0;
-        const std::size_t count = scene_.scene()->coefficient_count();
+        const std::size_t count = scene_.scene()->columns().count();
         for (std::size_t i = 0; i < lighting_.target().size(); ++i) {
             const double target = lighting_.target()[i];
             light += std::abs(target);
-            if (scene_.scene()->bands()[i % count] == band) {
+            if (scene_.scene()->columns().bands()[i % count] == band) {
                 left += std::abs(target - double{lighting_.approximation()[i]});
             }
         }
@@ -47,7 +47,7 @@ class BandFillingTest : public testing::Test {
     }
 
     engine::TinyScene scene_;
-    engine::Lighting lighting_;
+    engine::SignalState lighting_;
 };
 
 TEST_F(BandFillingTest, ABandWaitsUntilThoseBelowAreWithinTheTolerance) {
@@ -57,7 +57,7 @@ TEST_F(BandFillingTest, ABandWaitsUntilThoseBelowAreWithinTheTolerance) {
         bool below_are_filled = true;
         for (std::uint32_t band = 0; band < kOrder; ++band) {
             bool is_touched = false;
-            for (const std::uint32_t column : scene_.scene()->columns_of_band(band)) {
+            for (const std::uint32_t column : scene_.scene()->columns().of_band(band)) {
                 is_touched = is_touched || lighting_.difference(column).is_nothing();
             }
             EXPECT_TRUE(below_are_filled || !is_touched) << columns << ", band " << band;

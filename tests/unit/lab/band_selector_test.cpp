@@ -21,7 +21,7 @@ class SelectorTest
     : public testing::TestWithParam<std::tuple<std::pair<std::uint32_t, std::uint64_t>, Norm>> {
   protected:
     SelectorTest()
-        : scene_({.light_basis = basis::LightBasis::haar(kFace)}), lighting_(*scene_.scene()) {
+        : scene_({.light_basis = basis::LightBasis::haar(kFace)}), lighting_(scene_.scene()->columns()) {
         const auto [terms, seed] = std::get<0>(GetParam());
         budget_.columns = terms;
         lighting_.set_target(test::random_lighting(kFace, seed));
@@ -35,8 +35,8 @@ class SelectorTest
     }
 
     void rank() {
-        ranking_.rank(*scene_.scene(), lighting_,
-                      scene_.scene()->weights(relighting::Priority::area));
+        ranking_.rank(scene_.scene()->columns(), lighting_,
+                      scene_.scene()->columns().weights(relighting::Priority::area));
     }
     [[nodiscard]] BandChoice choice() const {
         return {.scene = *scene_.scene(),
@@ -47,7 +47,7 @@ class SelectorTest
     engine::Plan plan_with(std::uint32_t bands_to_reset) {
         engine::Plan plan;
         plan.bands_to_reset = bands_to_reset;
-        selection_.choose(*scene_.scene(), lighting_, ranking_, scene_.scene()->places(),
+        selection_.choose(scene_.scene()->columns(), lighting_, ranking_, scene_.scene()->columns().places(),
                           budget_, plan);
         return plan;
     }
@@ -57,7 +57,7 @@ class SelectorTest
     static Norm norm() { return std::get<1>(GetParam()); }
 
     engine::TinyScene scene_;
-    engine::Lighting lighting_;
+    engine::SignalState lighting_;
     engine::Ranking ranking_;
     engine::Selection selection_;
     engine::SelectionBudget budget_{.columns = 0, .bytes = ~std::uint64_t{0}};
@@ -65,7 +65,7 @@ class SelectorTest
 
 TEST_P(SelectorTest, ExhaustiveLeavesNoMoreThanAnySet) {
     const double best = remaining(make_exhaustive_selector(norm())->bands_to_reset(choice()));
-    for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->band_count(); ++mask) {
+    for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->columns().band_count(); ++mask) {
         EXPECT_LE(best, remaining(mask)) << mask;
     }
 }
@@ -83,7 +83,7 @@ TEST_P(SelectorTest, SimpleLeavesNoMoreThanAnySetBeforeTermsAreSpent) {
         return remaining_lighting_error(choice(), nothing, norm());
     };
     const double best = before_terms(make_simple_selector(norm())->bands_to_reset(choice()));
-    for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->band_count(); ++mask) {
+    for (std::uint32_t mask = 0; mask < 1U << scene_.scene()->columns().band_count(); ++mask) {
         EXPECT_LE(best, before_terms(mask) * (1 + 1e-12)) << mask;
     }
 }
@@ -109,11 +109,11 @@ INSTANTIATE_TEST_SUITE_P(TermsAndSeeds,
 
 TEST(BandSelector, AtRestNothingIsReset) {
     const engine::TinyScene scene({.light_basis = basis::LightBasis::haar(kFace)});
-    engine::Lighting lighting(*scene.scene());
+    engine::SignalState lighting(scene.scene()->columns());
     lighting.set_target(test::random_lighting(kFace, 1));
     lighting.apply_all();
     engine::Ranking ranking;
-    ranking.rank(*scene.scene(), lighting, scene.scene()->weights(relighting::Priority::area));
+    ranking.rank(scene.scene()->columns(), lighting, scene.scene()->columns().weights(relighting::Priority::area));
     const BandChoice choice{.scene = *scene.scene(),
                             .lighting = lighting,
                             .ranking = ranking,

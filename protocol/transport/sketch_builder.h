@@ -1,0 +1,63 @@
+// Making a transport's sketch, a column at a time.
+#pragma once
+
+#include "protocol/transport/sketch.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::transport {
+
+// What a Sketch reads.
+struct SketchTable {
+    std::uint32_t rows = 0;
+    std::vector<float> scales;        // [N][3]
+    std::vector<std::int8_t> values;  // [N][3][rows]
+
+    [[nodiscard]] Sketch view() const { return {rows, scales, values}; }
+};
+
+// A count sketch [Charikar02]: every receiver adds to one of R rows with one sign, so that a
+// column costs one addition per value, R times fewer than dense random signs, and the estimate
+// of ‖T ΔL‖² that it gives is unbiased with relative variance at most 2/R, as theirs.
+// Immutable; safe to share between threads.
+class SketchPlan {
+  public:
+    // Row and sign of receiver p follow from seed and p alone; seeds that differ give
+    // independent ones. 1 ≤ rows ≤ 65536.
+    SketchPlan(std::uint32_t rows, std::uint64_t seed, std::size_t receivers);
+
+    [[nodiscard]] std::uint32_t rows() const { return rows_; }
+    [[nodiscard]] SketchTable empty_table(std::size_t columns) const;
+
+  private:
+    friend class ColumnSketch;
+    struct Place {
+        std::uint16_t row = 0;
+        float sign = 1;
+    };
+
+    std::uint32_t rows_;
+    std::vector<Place> places_;
+};
+
+// The sketch of one column at a time. Keeps a reference to the plan. Not thread-safe.
+class ColumnSketch {
+  public:
+    explicit ColumnSketch(const SketchPlan& plan);
+
+    void clear();
+    // Tint applied.
+    void add(std::size_t colour, std::size_t receiver, double value);
+    // Rounds to 8 bits, the largest value of each colour to the largest integer: noise of a
+    // hundredth of the value, where the estimate itself is good to a twentieth.
+    void store(std::size_t column, SketchTable& table) const;
+
+  private:
+    const SketchPlan& plan_;
+    std::vector<double> sums_;  // [3][rows]
+};
+
+}  // namespace relume::transport

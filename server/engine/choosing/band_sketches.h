@@ -1,0 +1,51 @@
+// A signal as the sketch of the transport sees it: S·T·L, band by band.
+#pragma once
+
+#include "server/engine/columns/plan.h"
+#include "server/engine/columns/significant_columns.h"
+#include "server/engine/columns/column_table.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::engine {
+
+// [bands][3][rows] numbers. Updates are added in double precision, so that a light of 10⁵ that
+// came and went leaves nothing behind. Not thread-safe.
+class BandSketches {
+  public:
+    BandSketches(const ColumnTable& table, const transport::Sketch& sketch);
+
+    // Of these columns: one pass over the sketch, spread over the caller's arena with a result
+    // that does not depend on it.
+    void set(const SignificantColumns& lit);
+    // The signal has changed in this way.
+    void apply(const Plan& plan);
+
+    // [3][rows].
+    [[nodiscard]] std::span<const double> band(std::uint32_t band) const {
+        return std::span(bands_).subspan(band * size_, size_);
+    }
+    // 3·rows, and row r of all bands together.
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] double sum(std::size_t r) const;
+
+  private:
+    const ColumnTable* table_;
+    const transport::Sketch* sketch_;
+    std::size_t size_;           // 3·rows
+    std::vector<double> bands_;  // [bands][3][rows]
+    std::vector<float>
+        partial_;  // [chunks][3][rows], kept so that the next pass need not allocate
+};
+
+// sums[3][rows] += S·T·ΔL of the changes.
+void add_sketch(const transport::Sketch& sketch,
+                std::span<const ColumnChange> changes,
+                std::span<float> sums);
+void add_sketch(const transport::Sketch& sketch,
+                std::span<const ColumnChange> changes,
+                std::span<double> sums);
+
+}  // namespace relume::engine

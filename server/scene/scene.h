@@ -1,0 +1,50 @@
+// A transport opened for relighting.
+#pragma once
+
+#include "protocol/basis/cubemap_projection.h"
+#include "protocol/transport/transport.h"
+#include "server/engine/operators/stored_operator.h"
+#include "server/engine/workspace.h"
+#include "server/view/image_view.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace relume::served {
+
+// What everybody who relights one scene shares: how a light becomes a signal, the operator that
+// takes the signal to receivers, and the view that makes an image of them. Immutable but for
+// what its workspace lends; safe to share between threads.
+class Scene {
+  public:
+    // Arranges the transport for whole products, in parallel.
+    explicit Scene(std::shared_ptr<const transport::Transport> transport);
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    [[nodiscard]] const transport::Transport& transport() const {
+        return operator_->transport();
+    }
+    // From a cubemap of light of resolution `face_resolution()` to a signal.
+    [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
+    [[nodiscard]] std::uint32_t face_resolution() const {
+        return projection_->basis().face_resolution();
+    }
+    [[nodiscard]] const engine::StoredOperator& stored_operator() const { return *operator_; }
+    [[nodiscard]] const engine::ColumnTable& columns() const { return operator_->columns(); }
+    // What sessions over the scene are made with.
+    [[nodiscard]] const std::shared_ptr<const engine::Workspace>& workspace() const {
+        return workspace_;
+    }
+    [[nodiscard]] const view::ImageView& view() const { return view_; }
+    // Bytes of memory.
+    [[nodiscard]] std::uint64_t bytes() const { return operator_->bytes(); }
+
+  private:
+    std::shared_ptr<const basis::CubemapProjection> projection_;
+    std::shared_ptr<const engine::StoredOperator> operator_;
+    std::shared_ptr<const engine::Workspace> workspace_;
+    view::ImageView view_;
+};
+
+}  // namespace relume::served

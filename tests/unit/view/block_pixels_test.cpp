@@ -1,0 +1,66 @@
+#include "server/view/block_pixels.h"
+
+#include "protocol/transport/receiver_basis.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <vector>
+
+namespace relume::view {
+namespace {
+
+using transport::kBlockSize;
+using transport::kColours;
+using transport::kTileSide;
+
+using BlockValues = std::array<std::array<float, kBlockSize>, kColours>;
+
+BlockValues random_values(std::uint32_t seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<float> normal;
+    BlockValues values;
+    for (auto& plane : values) {
+        for (float& value : plane) {
+            value = normal(generator);
+        }
+    }
+    return values;
+}
+
+// Whole tiles, and those that the image's edge cuts: every pixel is that of the specification
+// to the last bit, and nothing beside the tile is written.
+TEST(BlockPixels, AreTheReceiversTimesTint) {
+    constexpr std::size_t kRowFloats = 3 * 40;
+    constexpr float kUntouched = -77;
+    for (const auto& [columns, rows] : {std::array{16U, 16U}, {1U, 16U}, {16U, 3U}, {7U, 5U}}) {
+        const BlockValues sums = random_values(columns);
+        const BlockValues tint = random_values(rows + 100);
+        std::vector<float> image(kRowFloats * 18, kUntouched);
+        write_block_pixels(sums[0].data(), tint[0].data(),
+                           {.first = &image[kRowFloats + 3 * 8],
+                            .row_floats = kRowFloats,
+                            .columns = columns,
+                            .rows = rows});
+        BlockValues receivers = sums;
+        for (auto& plane : receivers) {
+            transport::block_receivers_from_coefficients(plane);
+        }
+        for (std::size_t y = 0; y < 18; ++y) {
+            for (std::size_t x = 0; x < 40; ++x) {
+                const bool inside = y >= 1 && y < 1 + rows && x >= 8 && x < 8 + columns;
+                const std::size_t slot = inside ? (y - 1) * kTileSide + x - 8 : 0;
+                for (std::size_t c = 0; c < kColours; ++c) {
+                    const float expected =
+                        inside ? receivers[c][slot] * tint[c][slot] : kUntouched;
+                    ASSERT_EQ(image[y * kRowFloats + 3 * x + c], expected)
+                        << columns << "x" << rows << " at " << x << ", " << y;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace relume::view
