@@ -158,7 +158,7 @@ TEST(Includes, ForbiddenOnesAreSeen) {
     EXPECT_EQ(forbidden("protocol/basis/a.h", "#include \"protocol/transport/b.h\"\n").size(),
               1U);
     EXPECT_EQ(forbidden("server/net/a.h", "#include \"tests/support/b.h\"\n").size(), 1U);
-    EXPECT_TRUE(forbidden("server/net/a.h", "#include \"server/engine/b.h\"\n").empty());
+    EXPECT_TRUE(forbidden("server/net/rooms/a.h", "#include \"server/net/base/b.h\"\n").empty());
     EXPECT_TRUE(forbidden("server/net/a.h", "#include <vector>\n").empty());
 }
 

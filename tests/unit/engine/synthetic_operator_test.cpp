@@ -259,7 +259,7 @@ class SyntheticKind : public testing::Test {
         for (std::uint32_t b = 0; b < length; ++b) {
             sum += b < length / 2 ? curve[begin + b] : -curve[begin + b];
         }
-        return sum / std::sqrt(double{length});
+        return sum / std::sqrt(static_cast<double>(length));
     }
 };
 
