@@ -48,6 +48,15 @@ RELUME_CPU_CLONES void multiply(std::span<const float> factors, std::span<float>
     }
 }
 
+// Their parts are added one by one.
+void leave_out_split_texels(Reflection& reflection) {
+    for (const SplitTexel& split : reflection.split) {
+        for (auto& plane : reflection.rgb) {
+            plane[split.place] = 0;
+        }
+    }
+}
+
 }  // namespace
 
 DirectLight::DirectLight(const RayCaster& caster,
@@ -97,29 +106,66 @@ void DirectLight::light_surface(const PixelSurface& surface,
                                 const JitterShift& shift,
                                 Scratch& scratch) const {
     Reflection& reflection = scratch.reflection;
-    reflect_light(texels_, surface.point, reflection);
-    const Imath::V3f origin = offset_origin(surface.point);
+    if (surface.turns.empty()) {
+        reflect_light(texels_, surface.point, reflection);
+        leave_out_split_texels(reflection);
+    } else {
+        reflect_from_turns(surface, scratch);
+    }
     std::vector<float>& open = scratch.open;
     if (reflection.is_diffuse) {
-        visibility_.compute(origin, shift, reflection.grey, open, scratch.visibility);
+        visibility_.compute(surface.origins, surface.share, shift, reflection.grey, open,
+                            scratch.visibility);
         multiply(open, reflection.grey);
         return;
     }
-    visibility_.compute(origin, shift, reflection.projected, open, scratch.visibility);
+    visibility_.compute(surface.origins, surface.share, shift, reflection.projected, open,
+                        scratch.visibility);
     for (auto& plane : reflection.rgb) {
         multiply(open, plane);
     }
-    split_visibility(surface, origin, shift, scratch);
+    add_split_texels(surface, shift, scratch);
+}
+
+// The mean of the reflections of all turns.
+void DirectLight::reflect_from_turns(const PixelSurface& surface, Scratch& scratch) const {
+    const float each = 1 / static_cast<float>(surface.turns.size());
+    Reflection& sum = scratch.reflection;
+    Reflection& turn = scratch.turn;
+    sum.is_diffuse = surface.point.bsdf.is_diffuse();
+    sum.split.clear();
+    for (auto* plane : {&sum.grey, &sum.projected, &sum.rgb[0], &sum.rgb[1], &sum.rgb[2]}) {
+        plane->assign(texels_.size(), 0.0F);
+    }
+    for (const scene::SurfacePoint& point : surface.turns) {
+        reflect_light(texels_, point, turn);
+        if (sum.is_diffuse) {
+            add_scaled(turn.grey, each, sum.grey);
+            continue;
+        }
+        leave_out_split_texels(turn);
+        for (std::size_t c = 0; c < 3; ++c) {
+            add_scaled(turn.rgb[c], each, sum.rgb[c]);
+            for (SplitTexel& split : turn.split) {
+                for (float& part : split.rgb[c]) {
+                    part *= each;
+                }
+            }
+        }
+        for (std::size_t place = 0; place < sum.projected.size(); ++place) {
+            sum.projected[place] = std::max(sum.projected[place], turn.projected[place]);
+        }
+        sum.split.insert(sum.split.end(), turn.split.begin(), turn.split.end());
+    }
 }
 
 // Every part of a split texel has a ray of its own.
-void DirectLight::split_visibility(const PixelSurface& surface,
-                                   const Imath::V3f& origin,
+void DirectLight::add_split_texels(const PixelSurface& surface,
                                    const JitterShift& shift,
                                    Scratch& scratch) const {
     constexpr float kPart = 1.0F / LightTexels::kTileSide;
     Reflection& reflection = scratch.reflection;
-    RayPacket packet(origin);
+    RayPacket packet(surface.origins);
     for (const SplitTexel& split : reflection.split) {
         std::uint32_t wanted = 0;
         for (std::uint32_t part = 0; part < kPacketSize; ++part) {
@@ -131,7 +177,9 @@ void DirectLight::split_visibility(const PixelSurface& surface,
             packet.x()[part] = d.x;
             packet.y()[part] = d.y;
             packet.z()[part] = d.z;
-            wanted |= surface.point.is_above_surface(d) ? 1U << part : 0U;
+            const bool reflects =
+                split.rgb[0][part] + split.rgb[1][part] + split.rgb[2][part] > 0;
+            wanted |= reflects ? 1U << part : 0U;
         }
         const std::uint32_t free = caster_.unoccluded(packet, wanted);
         scratch.visibility.rays += static_cast<std::uint64_t>(std::popcount(wanted));
@@ -140,7 +188,7 @@ void DirectLight::split_visibility(const PixelSurface& surface,
             for (std::uint32_t part = 0; part < kPacketSize; ++part) {
                 total += (free >> part) & 1U ? split.rgb[c][part] : 0.0F;
             }
-            reflection.rgb[c][split.place] = total;
+            reflection.rgb[c][split.place] += total;
         }
     }
 }

@@ -28,6 +28,7 @@ class DirectLight {
     // One per thread.
     struct Scratch {
         Reflection reflection;
+        Reflection turn;  // of one of several points
         Visibility::Scratch visibility;
         std::vector<float> open;
         std::vector<float> scattered;
@@ -45,8 +46,8 @@ class DirectLight {
     void light_surface(const PixelSurface& surface,
                        const JitterShift& shift,
                        Scratch& scratch) const;
-    void split_visibility(const PixelSurface& surface,
-                          const Imath::V3f& origin,
+    void reflect_from_turns(const PixelSurface& surface, Scratch& scratch) const;
+    void add_split_texels(const PixelSurface& surface,
                           const JitterShift& shift,
                           Scratch& scratch) const;
 

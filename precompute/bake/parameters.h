@@ -15,15 +15,15 @@ struct BakeParameters {
     std::uint32_t height = 512;          // pixels
     std::uint32_t face_resolution = 64;  // n of the 6×n×n lighting cubemap
     basis::LightBasis::Kind basis = basis::LightBasis::Kind::haar;
-    std::uint32_t order = 10;         // of spherical harmonics; Haar has none
-    std::uint32_t bounces = 1;        // scattering events after the first; 0: direct only
-    std::uint32_t samples = 64;       // paths per pixel
-    std::uint32_t bits = 8;           // 6, 7 or 8
-    std::uint32_t pixel_samples = 4;  // camera sub-positions per pixel
-    std::uint32_t edge_samples = 8;   // more visibility rays per texel at shadow edges
-    std::uint32_t pool_radius = 4;    // pixels whose paths are shared; 0: none
-    float shrinkage = 2.0F;           // standard errors a coefficient must stand clear of
-    std::uint32_t threads = 0;        // 0: one per core; changes no result
+    std::uint32_t order = 10;          // of spherical harmonics; Haar has none
+    std::uint32_t bounces = 1;         // scattering events after the first; 0: direct only
+    std::uint32_t samples = 64;        // paths per pixel
+    std::uint32_t bits = 8;            // 6, 7 or 8
+    std::uint32_t pixel_samples = 16;  // camera sub-positions per pixel
+    std::uint32_t edge_samples = 8;    // more visibility rays per texel at shadow edges
+    std::uint32_t pool_radius = 4;     // pixels whose paths are shared; 0: none
+    float shrinkage = 2.0F;            // standard errors a coefficient must stand clear of
+    std::uint32_t threads = 0;         // 0: one per core; changes no result
     std::uint64_t seed = 0;
     scene::UpAxis up_axis = scene::UpAxis::y;  // of the scene's file
 };

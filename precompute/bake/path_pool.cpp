@@ -1,5 +1,7 @@
 #include "precompute/bake/path_pool.h"
 
+#include "precompute/bake/lobe.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,10 +11,6 @@ namespace {
 
 // Weights below this are not worth their time.
 constexpr float kLeastWeight = 0.01F;
-
-Imath::V3f mirror_direction(const scene::SurfacePoint& point) {
-    return point.shading.to_world({-point.wo.x, -point.wo.y, point.wo.z});
-}
 
 float glossy_width(const scene::Bsdf& bsdf) {
     return bsdf.model() == scene::BsdfModel::ggx ? 2.0F * bsdf.alpha()

@@ -57,17 +57,21 @@ SurfacePaths PathTracer::trace(const PixelSurface& surface,
     const std::uint64_t key = transport::mix_bits(seed_ + 1) + surface_number;
     const std::uint32_t first = morton_index(x, y) * samples_;
     for (std::uint32_t i = 0; i < paths.paths; ++i) {
-        trace_path(surface, first + i, key, paths);
+        trace_path(surface, i, first + i, key, paths);
     }
     paths.nearness /= static_cast<float>(paths.paths);
     return paths;
 }
 
 void PathTracer::trace_path(const PixelSurface& surface,
+                            std::uint32_t number,
                             std::uint32_t index,
                             std::uint64_t key,
                             SurfacePaths& paths) const {
-    scene::SurfacePoint point = surface.point;
+    scene::SurfacePoint point =
+        surface.turns.empty() ? surface.point : surface.turns[number % surface.turns.size()];
+    Imath::V3f origin =
+        surface.turns.empty() ? surface.origins[number % kPacketSize] : offset_origin(point);
     Imath::V3f weight{1, 1, 1};
     for (std::uint32_t event = 0;; ++event) {
         const std::uint64_t dimension = transport::mix_bits(key) + 2 * std::uint64_t{event};
@@ -87,7 +91,7 @@ void PathTracer::trace_path(const PixelSurface& surface,
             }
         }
         weight *= event == 0 ? demodulated(point.bsdf, sample.weight) : sample.weight;
-        const auto hit = caster_.closest_hit(offset_origin(point), sample.wi);
+        const auto hit = caster_.closest_hit(origin, sample.wi);
         ++paths.rays;
         if (!hit) {
             if (event > 0 && directions == 0) {  // else it is direct light, or was looked at
@@ -111,6 +115,7 @@ void PathTracer::trace_path(const PixelSurface& surface,
         }
         point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
                                      hit->barycentric, sample.wi);
+        origin = offset_origin(point);
     }
 }
 

@@ -77,7 +77,9 @@ class PathTracer {
                                      std::uint32_t y) const;
 
   private:
+    // Path `number` of the surface, at `index` of the sequences.
     void trace_path(const PixelSurface& surface,
+                    std::uint32_t number,
                     std::uint32_t index,
                     std::uint64_t key,
                     SurfacePaths& paths) const;

@@ -51,6 +51,12 @@ RELUME_CPU_CLONES std::uint32_t positive_lanes(const float* tfar) {
     return lanes;
 }
 
+std::array<Imath::V3f, kPacketSize> all_at(const Imath::V3f& origin) {
+    std::array<Imath::V3f, kPacketSize> origins;
+    origins.fill(origin);
+    return origins;
+}
+
 }  // namespace
 
 RayCaster::RayCaster(const scene::Scene& scene)
@@ -141,12 +147,14 @@ bool RayCaster::is_occluded(const Imath::V3f& origin, const Imath::V3f& directio
     return ray.tfar < 0;
 }
 
-RayPacket::RayPacket(const Imath::V3f& origin)
+RayPacket::RayPacket(const Imath::V3f& origin) : RayPacket(all_at(origin)) {}
+
+RayPacket::RayPacket(const std::array<Imath::V3f, kPacketSize>& origins)
     : context_(make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT)) {
     for (std::size_t i = 0; i < kPacketSize; ++i) {
-        rays_.org_x[i] = origin.x;
-        rays_.org_y[i] = origin.y;
-        rays_.org_z[i] = origin.z;
+        rays_.org_x[i] = origins[i].x;
+        rays_.org_y[i] = origins[i].y;
+        rays_.org_z[i] = origins[i].z;
         rays_.dir_x[i] = rays_.dir_y[i] = rays_.dir_z[i] = 0;
         rays_.tnear[i] = 0;
         rays_.time[i] = 0;

@@ -1,5 +1,5 @@
 // Embree behind three questions: what does a ray hit, what is in its way, and which of sixteen
-// directions from one point see the sky.
+// rays see the sky.
 #pragma once
 
 #include "precompute/scene/scene.h"
@@ -25,10 +25,13 @@ struct Hit {
 
 inline constexpr std::size_t kPacketSize = 16;
 
-// Sixteen rays from one point, set up once and cast again and again with other directions.
+// Sixteen rays, their origins set up once, cast again and again with other directions.
 class RayPacket {
   public:
+    // All from one point.
     explicit RayPacket(const Imath::V3f& origin);
+    // From points close to each other.
+    explicit RayPacket(const std::array<Imath::V3f, kPacketSize>& origins);
 
     // Directions of any length; write those that are wanted before each cast.
     [[nodiscard]] float* x() { return rays_.dir_x; }
@@ -61,8 +64,8 @@ class RayCaster {
     [[nodiscard]] std::optional<Hit> closest_hit(const Imath::V3f& origin,
                                                  const Imath::V3f& direction) const;
     [[nodiscard]] bool is_occluded(const Imath::V3f& origin, const Imath::V3f& direction) const;
-    // Bit i is set when bit i of `wanted` is set and nothing lies in direction i. Fastest when
-    // the directions are close to each other.
+    // Bit i is set when bit i of `wanted` is set and nothing lies in the way of ray i. Fastest
+    // when the directions are close to each other.
     [[nodiscard]] std::uint32_t unoccluded(RayPacket& packet, std::uint32_t wanted) const;
 
   private:

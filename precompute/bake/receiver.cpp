@@ -1,23 +1,27 @@
 #include "precompute/bake/receiver.h"
 
+#include "precompute/bake/lobe.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 namespace relume::bake {
 namespace {
 
 // How much two points of one surface may differ within a pixel.
-constexpr float kSameSurfaceCosine = 0.95F;
+constexpr float kSameSurfaceCosine = 0.85F;
 constexpr float kSameSurfaceFootprints = 2.0F;
 
 struct Gathered {
     PixelSurface surface;
     Imath::V3f colour_sum{0, 0, 0};
     float best_distance = 0;  // of the point that stands for it, from the pixel's centre
-    std::uint32_t hits = 0;
+    std::vector<scene::SurfacePoint> hits;
 };
 
 Imath::V3f colour_of(const scene::SurfacePoint& point) {
@@ -30,6 +34,51 @@ bool same_surface(const PixelSurface& a, const PixelSurface& b) {
            a.point.shading.normal.dot(b.point.shading.normal) > kSameSurfaceCosine &&
            std::abs(between.dot(a.point.geometric_normal)) <
                kSameSurfaceFootprints * std::max(a.footprint, b.footprint);
+}
+
+// Sixteen of the hits, each several times where they are fewer. Of hits on a grid of 4×4, row
+// by row, every run of four has one in each row and each column.
+const scene::SurfacePoint& hit_of_lane(std::span<const scene::SurfacePoint> hits,
+                                       std::uint32_t lane) {
+    constexpr std::array<std::uint32_t, kPacketSize> kOrder{1, 14, 7, 8, 2, 13, 4, 11,
+                                                            0, 15, 6, 9, 3, 12, 5, 10};
+    return hits[(2 * kOrder[lane] + 1) * hits.size() / (2 * kPacketSize)];
+}
+
+// Whether some of the hits reflect otherwise than the point: by normal, or for glossy surfaces
+// by where the lobe points.
+bool turns_far(const scene::SurfacePoint& point, std::span<const scene::SurfacePoint> hits) {
+    constexpr float kNormal = 0.15F;  // radians
+    constexpr float kOfLobe = 0.5F;
+    if (point.bsdf.is_diffuse()) {
+        return std::any_of(hits.begin(), hits.end(), [&](const scene::SurfacePoint& hit) {
+            return (hit.shading.normal - point.shading.normal).length() > kNormal;
+        });
+    }
+    const Imath::V3f mirror = mirror_direction(point);
+    const float far = kOfLobe * lobe_width(point);
+    return std::any_of(hits.begin(), hits.end(), [&](const scene::SurfacePoint& hit) {
+        return (mirror_direction(hit) - mirror).length() > far;
+    });
+}
+
+void spread_over_hits(Gathered& one) {
+    PixelSurface& surface = one.surface;
+    std::span<const scene::SurfacePoint> hits = one.hits;
+    if (one.best_distance == 0 && hits.size() > 1) {
+        hits = hits.subspan(1);  // the middle of the pixel, which is no part of the grid
+    }
+    for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
+        surface.origins[lane] = offset_origin(hit_of_lane(hits, lane));
+    }
+    constexpr float kMostTurns = 4;
+    const auto turns = static_cast<std::uint32_t>(std::ceil(kMostTurns * surface.share));
+    if (turns < 2 || !turns_far(surface.point, hits)) {
+        return;
+    }
+    for (std::uint32_t lane = 0; lane < turns; ++lane) {
+        surface.turns.push_back(hit_of_lane(hits, lane));
+    }
 }
 
 class PixelGatherer {
@@ -71,14 +120,16 @@ class PixelGatherer {
         view.depth = depth_sum_ / static_cast<float>(hits_);
         view.albedo = albedo_sum_ / casts;
         for (Gathered& one : gathered_) {
-            one.surface.share = static_cast<float>(one.hits) / casts;
+            one.surface.share = static_cast<float>(one.hits.size()) / casts;
             const Imath::V3f own = colour_of(one.surface.point);
             for (int c = 0; c < 3; ++c) {
                 one.surface.tint[c] =
-                    own[c] > 0 ? one.colour_sum[c] / (own[c] * static_cast<float>(one.hits))
-                               : 1.0F;
+                    own[c] > 0
+                        ? one.colour_sum[c] / (own[c] * static_cast<float>(one.hits.size()))
+                        : 1.0F;
             }
-            view.surfaces.push_back(one.surface);
+            spread_over_hits(one);
+            view.surfaces.push_back(std::move(one.surface));
         }
         return view;
     }
@@ -110,14 +161,15 @@ class PixelGatherer {
             return same_surface(one.surface, surface);
         });
         if (found == gathered_.end()) {
-            gathered_.push_back({.surface = surface, .best_distance = centre_distance});
+            gathered_.push_back(
+                {.surface = surface, .best_distance = centre_distance, .hits = {}});
             found = gathered_.end() - 1;
         } else if (centre_distance < found->best_distance) {
             found->surface = surface;
             found->best_distance = centre_distance;
         }
         found->colour_sum += colour_of(surface.point);
-        ++found->hits;
+        found->hits.push_back(surface.point);
     }
 
     const RayCaster& caster_;

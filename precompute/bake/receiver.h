@@ -7,6 +7,7 @@
 
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct PixelSurface {
     float share = 0;           // of the pixel, in (0, 1]
     float footprint = 0;       // of a pixel at the point, in world units
     std::uint32_t material = 0;
+    // Where rays leave the surface, spread over what the pixel sees of it: just off it, as
+    // offset_origin says. Any aligned run of 2^k of them is spread evenly.
+    std::array<Imath::V3f, kPacketSize> origins{};
+    // Points whose reflections are averaged, where the surface turns so far within the pixel
+    // that its highlight does; none where `point` stands for all.
+    std::vector<scene::SurfacePoint> turns;
 };
 
 struct PixelView {

@@ -1,5 +1,6 @@
 #include "precompute/bake/reflection.h"
 
+#include "precompute/bake/lobe.h"
 #include "protocol/basis/cpu_clones.h"
 #include "protocol/basis/cubemap.h"
 
@@ -97,17 +98,6 @@ void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflecti
         [&](std::size_t first) { std::fill_n(grey + first, kPacketSize, 0.0F); });
 }
 
-// How narrow the glossy lobe is in its narrowest direction, in radians of the light's
-// direction. A half vector's spread is doubled in the plane of incidence and shrinks with the
-// cosine across.
-float lobe_width(const scene::SurfacePoint& point) {
-    constexpr float kLeastCosine = 0.1F;
-    const scene::Bsdf& bsdf = point.bsdf;
-    return bsdf.model() == scene::BsdfModel::ggx
-               ? 2.0F * bsdf.alpha() * std::max(point.wo.z, kLeastCosine)
-               : std::sqrt(2.0F / (bsdf.exponent() + 2.0F));
-}
-
 // How a texel's integral is to be found.
 // `coarse` and `fine` are grids of midpoints.
 enum class TexelRule : std::uint8_t { centroid, coarse, fine, sampled };
@@ -117,14 +107,19 @@ class TexelRules {
     TexelRules(const LightTexels& texels, const scene::SurfacePoint& point)
         : width_(lobe_width(point)),
           texel_(2.0F / static_cast<float>(texels.face_resolution())),
-          mirror_(point.shading.to_world({-point.wo.x, -point.wo.y, point.wo.z})) {}
+          mirror_(mirror_direction(point)) {}
+
+    // Whether the lobe is smooth across every texel within `radius` of a direction.
+    [[nodiscard]] bool is_smooth_around(const Imath::V3f& direction, float radius) const {
+        const float nearest = (direction - mirror_).length() - 2 * radius;
+        return texel_ < kSmooth * std::max(width_, 0.5F * nearest);
+    }
 
     [[nodiscard]] TexelRule rule(const Imath::V3f& direction) const {
         // Texels per scale on which the lobe changes here: its width, or further out its
         // distance from the peak.
         const float away = (direction - mirror_).length();
         const float coarseness = texel_ / std::max(width_, 0.5F * away);
-        constexpr float kSmooth = 0.2F;
         constexpr float kCoarseResolves = 0.6F;
         constexpr float kFineResolves = 2.5F;
         return coarseness < kSmooth           ? TexelRule::centroid
@@ -134,6 +129,8 @@ class TexelRules {
     }
 
   private:
+    static constexpr float kSmooth = 0.2F;
+
     float width_;
     float texel_;
     Imath::V3f mirror_;
@@ -233,6 +230,13 @@ void split_texels(const LightTexels& texels,
     const TexelRules rules(texels, point);
     std::vector<SplitTexel> peaks;
     for (std::size_t place = 0; place < texels.size(); ++place) {
+        const std::size_t packet = place / kPacketSize;
+        if (place % kPacketSize == 0 &&
+            rules.is_smooth_around(texels.packet_direction(packet),
+                                   texels.packet_sine_radius(packet))) {
+            place += kPacketSize - 1;
+            continue;
+        }
         if (out.projected[place] <= 0) {
             continue;
         }

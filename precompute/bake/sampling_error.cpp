@@ -21,7 +21,12 @@ namespace relume::bake {
 namespace {
 
 constexpr SampleCount kTiles{.every = 32, .least = 12, .most = 48};
-constexpr std::uint32_t kPixelSpacing = 2;  // along both sides of a tile
+constexpr std::uint32_t kPixelSpacing = 4;  // along both sides of a tile
+// Along both sides of a pixel, a point in each; the second where surfaces meet.
+constexpr std::uint32_t kParts = 2;
+constexpr std::uint32_t kEdgeParts = 4;
+constexpr std::uint32_t kMorePaths = 4;  // of a point, for no neighbours help
+constexpr std::uint32_t kFiner = 8;      // pixels of the finer image along a pixel
 constexpr std::size_t kLightsPerKind = 4;
 constexpr std::size_t kKinds = 2;  // natural, sun
 constexpr std::size_t kLights = kKinds * kLightsPerKind;
@@ -47,10 +52,32 @@ double inner_product(std::span<const float> row, std::span<const float> light) {
     return sum;
 }
 
-// The bake with a seed of its own.
-class SeededBake {
+PixelLook look_of(const CoefficientRow& row, const std::vector<std::vector<float>>& lights) {
+    PixelLook look;
+    for (std::size_t i = 0; i < kLights; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            look[i][c] = inner_product(row.rgb[c], lights[i]);
+        }
+    }
+    return look;
+}
+
+// Pixels of a tile, kPixelSpacing apart: calls visit(x, y) for each.
+template <typename Visit>
+void for_each_pixel(const SampleTile& tile, const BakeParameters& parameters, Visit visit) {
+    const std::uint32_t right = std::min(tile.left + transport::kTileSide, parameters.width);
+    const std::uint32_t bottom = std::min(tile.top + transport::kTileSide, parameters.height);
+    for (std::uint32_t y = tile.top + kPixelSpacing / 2; y < bottom; y += kPixelSpacing) {
+        for (std::uint32_t x = tile.left + kPixelSpacing / 2; x < right; x += kPixelSpacing) {
+            visit(x, y);
+        }
+    }
+}
+
+// What the bake shows.
+class BakedLooks {
   public:
-    SeededBake(const RayCaster& caster,
+    BakedLooks(const RayCaster& caster,
                const scene::Camera& camera,
                const BakeParameters& parameters)
         : caster_(caster),
@@ -60,7 +87,6 @@ class SeededBake {
           rows_(caster, texels_, parameters_),
           lights_(lights_for(rows_.projection())) {}
 
-    // Pixels of a tile, kPixelSpacing apart.
     [[nodiscard]] std::vector<PixelLook> look(const SampleTile& tile) const {
         const std::uint32_t right =
             std::min(tile.left + transport::kTileSide, parameters_.width);
@@ -72,21 +98,13 @@ class SeededBake {
         std::vector<PixelLook> looks;
         CoefficientRow row;
         RowBaker::Scratch scratch;
-        for (std::uint32_t y = tile.top + kPixelSpacing / 2; y < bottom; y += kPixelSpacing) {
-            for (std::uint32_t x = tile.left + kPixelSpacing / 2; x < right;
-                 x += kPixelSpacing) {
-                PixelLook& look = looks.emplace_back();
-                if (window.pixel(x, y).view.surfaces.empty()) {
-                    continue;
-                }
+        for_each_pixel(tile, parameters_, [&](std::uint32_t x, std::uint32_t y) {
+            PixelLook& look = looks.emplace_back();
+            if (!window.pixel(x, y).view.surfaces.empty()) {
                 rows_.bake(window.pixel(x, y), x, y, &pool, row, scratch);
-                for (std::size_t i = 0; i < kLights; ++i) {
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        look[i][c] = inner_product(row.rgb[c], lights_[i]);
-                    }
-                }
+                look = look_of(row, lights_);
             }
-        }
+        });
         return looks;
     }
 
@@ -99,52 +117,133 @@ class SeededBake {
     std::vector<std::vector<float>> lights_;
 };
 
-// Σ (B₁ − B₂)² / 2 and Σ B₁·B₂ of one kind of light.
+BakeParameters without_bias(BakeParameters parameters, std::uint64_t number) {
+    parameters.width *= kFiner;
+    parameters.height *= kFiner;
+    parameters.pixel_samples = 1;
+    parameters.samples *= kMorePaths;
+    parameters.pool_radius = 0;
+    parameters.shrinkage = 0;
+    parameters.seed = transport::mix_bits(parameters.seed + 1 + number);
+    return parameters;
+}
+
+// What it would show on average over many bakes that spare nothing: pixels are means over
+// pixels of a finer image, each of which is one point, lit by its own rays and paths alone.
+class UnbiasedLooks {
+  public:
+    UnbiasedLooks(const RayCaster& caster,
+                  const scene::Camera& camera,
+                  const BakeParameters& parameters,
+                  std::uint64_t number)
+        : caster_(caster),
+          pixels_(camera),
+          parameters_(parameters),
+          finer_(without_bias(parameters, number)),
+          camera_(caster.scene().camera, finer_.width, finer_.height),
+          texels_(finer_.face_resolution, finer_.seed),
+          window_(caster, camera_, finer_, {.left = 0, .right = finer_.width}),
+          rows_(caster, texels_, finer_),
+          lights_(lights_for(rows_.projection())) {}
+
+    [[nodiscard]] std::vector<PixelLook> look(const SampleTile& tile) const {
+        std::vector<PixelLook> looks;
+        CoefficientRow row;
+        RowBaker::Scratch scratch;
+        for_each_pixel(tile, parameters_, [&](std::uint32_t x, std::uint32_t y) {
+            PixelLook& sum = looks.emplace_back();
+            const std::uint32_t parts = meets_edge(x, y) ? kEdgeParts : kParts;
+            const std::uint32_t side = kFiner / parts;
+            for (std::uint32_t part = 0; part < parts * parts; ++part) {
+                // A pixel of the finer image in each of the parts.
+                const std::uint64_t bits = transport::mix_bits(
+                    finer_.seed +
+                    (std::uint64_t{y} * parameters_.width + x) * kEdgeParts * kEdgeParts +
+                    part);
+                const std::uint32_t column =
+                    x * kFiner + part % parts * side + static_cast<std::uint32_t>(bits) % side;
+                const std::uint32_t line = y * kFiner + part / parts * side +
+                                           static_cast<std::uint32_t>(bits >> 32U) % side;
+                const TracedPixel pixel = window_.trace(column, line);
+                if (pixel.view.surfaces.empty()) {
+                    continue;
+                }
+                rows_.bake(pixel, column, line, nullptr, row, scratch);
+                const PixelLook one = look_of(row, lights_);
+                for (std::size_t i = 0; i < kLights; ++i) {
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        sum[i][c] += one[i][c] / (parts * parts);
+                    }
+                }
+            }
+        });
+        return looks;
+    }
+
+  private:
+    [[nodiscard]] bool meets_edge(std::uint32_t x, std::uint32_t y) const {
+        const PixelView view =
+            view_pixel(caster_, pixels_, x, y, parameters_.pixel_samples, parameters_.seed);
+        return view.surfaces.size() > 1 || view.coverage < 1;
+    }
+
+    const RayCaster& caster_;
+    const scene::Camera& pixels_;
+    BakeParameters parameters_;
+    BakeParameters finer_;
+    scene::Camera camera_;
+    LightTexels texels_;
+    TileWindow window_;
+    RowBaker rows_;
+    std::vector<std::vector<float>> lights_;
+};
+
+// Σ (B − U₁)·(B − U₂) and Σ U₁·U₂ of one kind of light.
 struct Sums {
-    double variance = 0;
+    double error = 0;
     double energy = 0;
 
-    void add(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    void add(const std::array<double, 3>& baked,
+             const std::array<double, 3>& first,
+             const std::array<double, 3>& second) {
         for (std::size_t c = 0; c < 3; ++c) {
-            variance += (a[c] - b[c]) * (a[c] - b[c]) / 2;
-            energy += a[c] * b[c];
+            error += (baked[c] - first[c]) * (baked[c] - second[c]);
+            energy += first[c] * second[c];
         }
     }
     [[nodiscard]] double relative() const {
-        return energy > 0 ? std::sqrt(variance / energy) : 0;
+        return energy > 0 ? std::sqrt(std::max(error, 0.0) / energy) : 0;
     }
 };
-
-BakeParameters with_another_seed(BakeParameters parameters) {
-    parameters.seed = transport::mix_bits(parameters.seed + 1);
-    return parameters;
-}
 
 }  // namespace
 
 transport::SamplingError measure_sampling_error(const RayCaster& caster,
                                                 const scene::Camera& camera,
                                                 const BakeParameters& parameters) {
-    const SeededBake own(caster, camera, parameters);
-    const SeededBake other(caster, camera, with_another_seed(parameters));
+    const BakedLooks baked(caster, camera, parameters);
+    const UnbiasedLooks first(caster, camera, parameters, 0);
+    const UnbiasedLooks second(caster, camera, parameters, 1);
     const TileWindow window(caster, camera, parameters);
     const std::vector<SampleTile> tiles =
         sample_tiles(window, {.width = parameters.width, .height = parameters.height}, kTiles,
                      parameters.seed);
     std::vector<std::array<Sums, kKinds>> sums(tiles.size());
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        const std::vector<PixelLook> first = own.look(tiles[i]);
-        const std::vector<PixelLook> second = other.look(tiles[i]);
-        for (std::size_t p = 0; p < first.size(); ++p) {
+        const std::vector<PixelLook> own = baked.look(tiles[i]);
+        const std::vector<PixelLook> one = first.look(tiles[i]);
+        const std::vector<PixelLook> other = second.look(tiles[i]);
+        for (std::size_t p = 0; p < own.size(); ++p) {
             for (std::size_t light = 0; light < kLights; ++light) {
-                sums[i][light / kLightsPerKind].add(first[p][light], second[p][light]);
+                sums[i][light / kLightsPerKind].add(own[p][light], one[p][light],
+                                                    other[p][light]);
             }
         }
     });
     std::array<Sums, kKinds> total;
     for (const std::array<Sums, kKinds>& tile : sums) {
         for (std::size_t kind = 0; kind < kKinds; ++kind) {
-            total[kind].variance += tile[kind].variance;
+            total[kind].error += tile[kind].error;
             total[kind].energy += tile[kind].energy;
         }
     }

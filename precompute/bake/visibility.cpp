@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 namespace relume::bake {
 namespace {
@@ -94,19 +95,22 @@ Visibility::Visibility(const RayCaster& caster,
     }
 }
 
-void Visibility::compute(const Imath::V3f& origin,
+void Visibility::compute(const std::array<Imath::V3f, kPacketSize>& origins,
+                         float share,
                          const JitterShift& shift,
                          std::span<const float> wanted,
                          std::span<float> open,
                          Scratch& scratch) const {
     const std::size_t side = texels_.face_resolution() + 2;
     scratch.state.assign(basis::kFaceCount * side * side, kUnknown);
-    RayPacket packet(origin);
+    RayPacket packet(origins);
     cast_first(packet, shift, wanted, open, scratch);
     if (!column_samples_.empty()) {
+        const auto extra = static_cast<std::size_t>(
+            std::ceil(share * static_cast<float>(column_samples_.size())));
         find_edges(scratch);
-        aim_at_edges(shift, scratch);
-        refine_edges(packet, open, scratch);
+        aim_at_edges(shift, extra, scratch);
+        refine_edges(packet, extra, open, scratch);
     }
 }
 
@@ -161,8 +165,9 @@ void Visibility::find_edges(Scratch& scratch) const {
 }
 
 // Directions of all further rays, edge by edge.
-void Visibility::aim_at_edges(const JitterShift& shift, Scratch& scratch) const {
-    const std::size_t extra = column_samples_.size();
+void Visibility::aim_at_edges(const JitterShift& shift,
+                              std::size_t extra,
+                              Scratch& scratch) const {
     for (auto& plane : scratch.directions) {
         plane.resize(scratch.edges.size() * extra);
     }
@@ -174,16 +179,17 @@ void Visibility::aim_at_edges(const JitterShift& shift, Scratch& scratch) const 
         const Imath::V3f corner = texels_.cube_point(place, 0, 0);
         for (int axis = 0; axis < 3; ++axis) {
             aim(corner[axis], texels_.column_step(place)[axis], texels_.row_step(place)[axis],
-                column, row, column_samples_, row_samples_,
+                column, row, std::span(column_samples_).first(extra),
+                std::span(row_samples_).first(extra),
                 &scratch.directions[static_cast<std::size_t>(axis)][i * extra]);
         }
     }
 }
 
 void Visibility::refine_edges(RayPacket& packet,
+                              std::size_t extra,
                               std::span<float> open,
                               Scratch& scratch) const {
-    const std::size_t extra = column_samples_.size();
     const std::size_t count = scratch.edges.size() * extra;
     for (std::size_t first = 0; first < count; first += kPacketSize) {
         const std::size_t lanes = std::min(kPacketSize, count - first);

@@ -1,9 +1,10 @@
-// How much of each texel of the light a point sees.
+// How much of each texel of the light the surface in a pixel sees.
 //
-// One ray through every texel the point could be lit from, jittered within the texel; where the
-// neighbours of a texel disagree a shadow's edge passes, and more rays follow. Which texels get
-// more is decided by their neighbours alone, never by their own ray, so the estimate stays
-// unbiased; the rays of one texel are stratified over it.
+// One ray through every texel the surface could be lit from, jittered within the texel, from
+// one of sixteen places of the surface; where the neighbours of a texel disagree a shadow's
+// edge passes in the light or in the pixel, and more rays follow, from several of the places.
+// Which texels get more is decided by their neighbours alone, never by their own ray, so the
+// estimate stays unbiased; the rays of one texel are stratified over it.
 #pragma once
 
 #include "precompute/bake/light_texels.h"
@@ -27,7 +28,7 @@ struct JitterShift {
 
 class Visibility {
   public:
-    // `edge_samples`: further rays per texel at shadow edges.
+    // `edge_samples`: further rays per texel at shadow edges, at most.
     Visibility(const RayCaster& caster, const LightTexels& texels, std::uint32_t edge_samples);
 
     // Reused from point to point; one per thread.
@@ -39,8 +40,11 @@ class Visibility {
         std::uint64_t rays = 0;  // cast so far
     };
 
-    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere.
-    void compute(const Imath::V3f& origin,
+    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. Edges get the
+    // part `share`, in (0, 1], of the further rays, one at least where there are any: what
+    // shows little of itself weighs little.
+    void compute(const std::array<Imath::V3f, kPacketSize>& origins,
+                 float share,
                  const JitterShift& shift,
                  std::span<const float> wanted,
                  std::span<float> open,
@@ -53,8 +57,12 @@ class Visibility {
                     std::span<float> open,
                     Scratch& scratch) const;
     void find_edges(Scratch& scratch) const;
-    void refine_edges(RayPacket& packet, std::span<float> open, Scratch& scratch) const;
-    void aim_at_edges(const JitterShift& shift, Scratch& scratch) const;
+    // `extra` rays a texel.
+    void aim_at_edges(const JitterShift& shift, std::size_t extra, Scratch& scratch) const;
+    void refine_edges(RayPacket& packet,
+                      std::size_t extra,
+                      std::span<float> open,
+                      Scratch& scratch) const;
 
     const RayCaster& caster_;
     const LightTexels& texels_;

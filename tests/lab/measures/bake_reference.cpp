@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -110,19 +111,11 @@ class ReferenceTracer {
                      std::uint32_t y,
                      Scratch& scratch,
                      BakeReference& reference) const {
-        // 128 positions more decide what the pixel is.
-        constexpr std::uint32_t kLooks = 16;
-        const PixelView view = bake::view_pixel(caster_, camera_, x, y, kLooks, kSeed);
         const std::size_t pixel = std::size_t{y} * options_.width + x;
         PixelContent& content = reference.content[pixel];
-        if (view.surfaces.empty()) {
+        content = content_of(x, y);
+        if (content == PixelContent::nothing) {
             return;
-        }
-        if (view.surfaces.size() > 1 || view.coverage < 1) {
-            content = PixelContent::edge;
-        } else {
-            content = is_glossy(view.surfaces.front().point.bsdf) ? PixelContent::gloss
-                                                                  : PixelContent::matte;
         }
         const std::uint32_t side =
             content == PixelContent::edge ? options_.edge_side : options_.side;
@@ -151,6 +144,39 @@ class ReferenceTracer {
         }
     }
 
+    // By looking through it in many places, more finely than any bake.
+    [[nodiscard]] PixelContent content_of(std::uint32_t x, std::uint32_t y) const {
+        constexpr std::uint32_t kSide = 12;
+        constexpr float kSameCosine = 0.95F;
+        constexpr float kSamePlane = 2;  // footprints of the pixel
+        std::optional<PixelSurface> first;
+        std::uint32_t seen = 0;
+        bool differ = false;
+        for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+            const auto surface = look(x * kSide + i % kSide, y * kSide + i / kSide, kSide, 2);
+            if (!surface) {
+                continue;
+            }
+            ++seen;
+            if (!first) {
+                first = surface;
+            }
+            const Imath::V3f between = surface->point.position - first->point.position;
+            const float off_plane = std::abs(between.dot(first->point.geometric_normal));
+            differ =
+                differ || surface->material != first->material ||
+                surface->point.shading.normal.dot(first->point.shading.normal) < kSameCosine ||
+                off_plane > kSamePlane * kSide * first->footprint;
+        }
+        if (!first) {
+            return PixelContent::nothing;
+        }
+        if (differ || seen < kSide * kSide) {
+            return PixelContent::edge;
+        }
+        return is_glossy(first->point.bsdf) ? PixelContent::gloss : PixelContent::matte;
+    }
+
     // The surface at a place in cell (column, row) of `side` cells a pixel.
     [[nodiscard]] std::optional<PixelSurface> look(std::uint32_t column,
                                                    std::uint32_t row,
@@ -172,6 +198,8 @@ class ReferenceTracer {
         surface.point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
                                              hit->barycentric, direction);
         surface.share = 1;
+        surface.material = caster_.scene().meshes[hit->mesh].material;
+        surface.origins.fill(bake::offset_origin(surface.point));
         surface.footprint = hit->distance * 2 * camera_.tan_half_height() /
                             static_cast<float>(camera_.height() * side);
         return surface;

@@ -26,7 +26,9 @@ std::size_t part_count(std::size_t lights) {
 std::string reference_file_name(const scene::Scene& scene,
                                 const std::vector<ReferenceLight>& lights,
                                 const ReferenceOptions& options) {
-    bake::BakeParameters parameters;
+    // Whatever a bake takes by default is no part of a reference.
+    bake::BakeParameters parameters{
+        .bits = 8, .pixel_samples = 1, .edge_samples = 0, .pool_radius = 0, .shrinkage = 0};
     parameters.width = options.width;
     parameters.height = options.height;
     parameters.face_resolution = options.face_resolution;

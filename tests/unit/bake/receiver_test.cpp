@@ -110,5 +110,61 @@ TEST(Receiver, OneSampleIsTheMiddleWhateverIsAround) {
     }
 }
 
+// Where the origins of a surface lie in the image, from its upper left pixel.
+Imath::V2f pixel_position(const scene::Camera& camera, const Imath::V3f& point) {
+    const Imath::V3f to = point - camera.eye();
+    const float depth = to.dot(camera.forward());
+    const float x = to.dot(camera.right()) / (depth * camera.tan_half_width());
+    const float y = to.dot(camera.up()) / (depth * camera.tan_half_height());
+    return {(x + 1) * 0.5F * kWidth, (1 - y) * 0.5F * kHeight};
+}
+
+TEST(Receiver, OriginsLieAllOverWhatThePixelSeesOfTheSurface) {
+    const scene::Scene scene = scene::build_builtin_scene("plane");
+    const RayCaster caster(scene);
+    const scene::Camera camera(scene.camera, kWidth, kHeight);
+    for (std::uint32_t y = 0; y < kHeight; y += 5) {
+        for (std::uint32_t x = 0; x < kWidth; x += 7) {
+            const PixelView view = view_pixel(caster, camera, x, y, 16, 3);
+            ASSERT_EQ(view.surfaces.size(), 1U);
+            EXPECT_TRUE(view.surfaces[0].turns.empty());
+            // Of each run of four one lies in every quarter of the pixel's width and height.
+            for (std::size_t first = 0; first < kPacketSize; first += 4) {
+                std::uint32_t columns = 0;
+                std::uint32_t rows = 0;
+                for (std::size_t lane = first; lane < first + 4; ++lane) {
+                    const Imath::V2f at =
+                        pixel_position(camera, view.surfaces[0].origins[lane]);
+                    columns |= 1U << static_cast<std::uint32_t>(4 * (at.x - std::floor(at.x)));
+                    rows |= 1U << static_cast<std::uint32_t>(4 * (at.y - std::floor(at.y)));
+                    EXPECT_EQ(std::floor(at.x), static_cast<float>(x));
+                    EXPECT_EQ(std::floor(at.y), static_cast<float>(y));
+                }
+                EXPECT_EQ(columns, 15U);
+                EXPECT_EQ(rows, 15U);
+            }
+        }
+    }
+}
+
+TEST(Receiver, SurfacesThatTurnWithinThePixelHaveSeveralPoints) {
+    // A glossy knot: its highlights move by more than their width from pixel to pixel.
+    const scene::Scene scene = scene::build_builtin_scene("thin");
+    const RayCaster caster(scene);
+    const scene::Camera camera(scene.camera, kWidth, kHeight);
+    std::uint32_t turning = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            for (const PixelSurface& surface :
+                 view_pixel(caster, camera, x, y, 16, 3).surfaces) {
+                turning += surface.turns.empty() ? 0U : 1U;
+                EXPECT_LE(surface.turns.size(), std::ceil(4 * surface.share));
+                EXPECT_NE(surface.turns.size(), 1U);
+            }
+        }
+    }
+    EXPECT_GT(turning, 20U);
+}
+
 }  // namespace
 }  // namespace relume::bake

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 namespace relume::bake {
@@ -28,10 +31,17 @@ class VisibilityOfThinThings : public testing::Test {
         const Imath::V3f centre = bounds.center();
         return {centre.x + 0.05F, bounds.min.y + 0.02F * bounds.size().y, centre.z};
     }
-    std::vector<float> open(std::uint32_t edge_samples, const JitterShift& shift) {
+    [[nodiscard]] std::array<Imath::V3f, kPacketSize> origins() const {
+        std::array<Imath::V3f, kPacketSize> all;
+        all.fill(origin());
+        return all;
+    }
+    std::vector<float> open(std::uint32_t edge_samples,
+                            const JitterShift& shift,
+                            float share = 1) {
         std::vector<float> result(texels_.size());
         Visibility(caster_, texels_, edge_samples)
-            .compute(origin(), shift, wanted_, result, scratch_);
+            .compute(origins(), share, shift, wanted_, result, scratch_);
         return result;
     }
 
@@ -95,6 +105,77 @@ TEST_F(VisibilityOfThinThings, MoreRaysAtEdgesChangeTheNoiseAndNotTheMean) {
     const double mean = std::accumulate(plain.begin(), plain.end(), 0.0);
     EXPECT_NEAR(std::accumulate(refined.begin(), refined.end(), 0.0) / mean, 1, 3e-3);
     EXPECT_LT(refined_squares, plain_squares);
+}
+
+TEST_F(VisibilityOfThinThings, MoreRaysGoExactlyWhereNeighboursDisagree) {
+    const JitterShift shift = random_shift(3);
+    const auto first = open(0, shift);
+    scratch_.rays = 0;
+    const auto refined = open(8, shift);
+    constexpr std::uint32_t kN = 16;
+    std::size_t edges = 0;
+    for (std::size_t place = 0; place < texels_.size(); ++place) {
+        const std::size_t index = texels_.texel_index(place);
+        const std::size_t row = index / kN % kN;
+        const std::size_t column = index % kN;
+        bool any_open = false;
+        bool any_blocked = false;
+        const auto look = [&](bool is_there, std::size_t neighbour) {
+            if (is_there) {
+                const float seen = first[texels_.place_from_texel_index(neighbour)];
+                any_open = any_open || seen > 0;
+                any_blocked = any_blocked || seen == 0;
+            }
+        };
+        look(row > 0, index - kN);
+        look(row + 1 < kN, index + kN);
+        look(column > 0, index - 1);
+        look(column + 1 < kN, index + 1);
+        const bool is_edge = any_open && any_blocked;
+        edges += is_edge ? 1 : 0;
+        if (!is_edge) {
+            EXPECT_EQ(refined[place], first[place]) << place;
+        }
+    }
+    EXPECT_GT(edges, 50U);
+    EXPECT_EQ(scratch_.rays, texels_.size() + 8 * edges);
+    scratch_.rays = 0;
+    (void)open(8, shift, 0.3F);  // of what shows a third of itself
+    EXPECT_EQ(scratch_.rays, texels_.size() + 3 * edges);
+}
+
+TEST_F(VisibilityOfThinThings, RaysFromSeveralPlacesSeeTheMeanOfWhatEachSees) {
+    const std::array<Imath::V3f, 2> ends{origin(), origin() + Imath::V3f(0.1F, 0, 0.06F)};
+    std::array<Imath::V3f, kPacketSize> both;
+    std::vector<double> found(texels_.size());
+    std::vector<double> wanted(texels_.size());
+    constexpr int kPoints = 600;
+    std::vector<float> result(texels_.size());
+    const Visibility visibility(caster_, texels_, 4);
+    for (std::uint64_t i = 0; i < kPoints; ++i) {
+        // Each lane is at either end in every other round, in an order of its own.
+        for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+            both[lane] = ends[(i + transport::mix_bits(i / 2 * kPacketSize + lane)) % 2];
+        }
+        visibility.compute(both, 1, random_shift(i), wanted_, result, scratch_);
+        std::transform(found.begin(), found.end(), result.begin(), found.begin(),
+                       [](double sum, float open) { return sum + double{open} / kPoints; });
+        for (const Imath::V3f& end : ends) {
+            std::array<Imath::V3f, kPacketSize> all;
+            all.fill(end);
+            visibility.compute(all, 1, random_shift(kPoints + i), wanted_, result, scratch_);
+            std::transform(
+                wanted.begin(), wanted.end(), result.begin(), wanted.begin(),
+                [](double sum, float open) { return sum + double{open} / (2 * kPoints); });
+        }
+    }
+    // Two means of rays that see one thing or the other: 0.5/√600 and 0.35/√600 at most.
+    double chi_square = 0;
+    for (std::size_t place = 0; place < found.size(); ++place) {
+        EXPECT_NEAR(found[place], wanted[place], 0.12) << place;
+        chi_square += std::pow(found[place] - wanted[place], 2);
+    }
+    EXPECT_LT(std::sqrt(chi_square / static_cast<double>(found.size())), 0.02);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "precompute/scene/builtin.h"
 #include "protocol/basis/cubemap.h"
 #include "tests/lab/measures/reference_file.h"
+#include "tests/lab/measures/scene_noise.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
@@ -92,6 +93,36 @@ TEST(BakeReference, HalvesAreIndependentAndAgree) {
         size += double{lit.half[0][i]} * double{lit.half[1][i]};
     }
     EXPECT_LT(difference, 0.01 * size);
+}
+
+TEST(SceneNoise, TheErrorThatABakeStatesIsTheOneItHas) {
+    const test::ScratchDirectory scratch;
+    ReferenceOptions options = kSmall;
+    options.width = 48;
+    options.height = 36;
+    options.paths = 256;
+    const std::vector<ReferenceLight> lights = model_lights(options.face_resolution);
+    for (const char* name : {"box", "thin"}) {
+        const scene::Scene scene = scene::build_builtin_scene(name);
+        const BakeReference reference =
+            trace_reference(scene, lights, options, [](std::uint32_t) {});
+        const bake::BakeParameters parameters{.width = options.width,
+                                              .height = options.height,
+                                              .face_resolution = options.face_resolution,
+                                              .bounces = options.bounces,
+                                              .samples = 8,
+                                              .pixel_samples = 2,
+                                              .pool_radius = 2};
+        const SceneNoise noise = measure_noise(scene, lights, reference, parameters, 2,
+                                               scratch.path() / "bake.relume");
+        const double natural = noise.relative_l2(0, kModelLights);
+        const double sun = noise.relative_l2(kModelLights, kModelLights);
+        // A sixteenth of the pixels stands for all.
+        EXPECT_GT(noise.stated_natural, natural / 1.5) << name;
+        EXPECT_LT(noise.stated_natural, natural * 1.5) << name;
+        EXPECT_GT(noise.stated_sun, sun / 1.5) << name;
+        EXPECT_LT(noise.stated_sun, sun * 1.5) << name;
+    }
 }
 
 TEST(ReferenceFile, GivesBackWhatWasWrittenAndNothingElse) {
