@@ -34,8 +34,7 @@ std::optional<Type> stated(ObjectReader& reader,
         return std::nullopt;
     }
     Display display;
-    field.set(display,
-              value_from_json(field.rule, *value, reader.path_to(field.rule.key), Limits{}));
+    field.set(display, value_from_json(field.rule, *value, reader.path_to(field.rule.key)));
     return display.*member;
 }
 

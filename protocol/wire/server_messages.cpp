@@ -1,4 +1,5 @@
 #include "protocol/wire/json_text.h"
+#include "protocol/wire/known_part.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/object_reader.h"
 
@@ -49,7 +50,7 @@ Snapshot snapshot_from(ObjectReader& reader) {
     return {.room = name_from_json(reader.require("room"), "/room"),
             .scene = scene_summary_from_json(reader.require("scene"), "/scene"),
             .revision = integer_from(reader, "revision"),
-            .state = room_state_from_json(reader.require("state")),
+            .state = room_state_from_json(known_part(reader.require("state"))),
             .viewers = count_from(reader, "viewers"),
             .limits = limits_from_json(reader.require("limits"))};
 }
@@ -60,7 +61,7 @@ Change change_from(ObjectReader& reader) {
         throw WireError(ErrorCode::wrong_type, "/patch", quote(patch), "an object");
     }
     return {.revision = integer_from(reader, "revision"),
-            .patch = patch,
+            .patch = known_part(patch),
             .edit_id = edit_id_from(reader)};
 }
 

@@ -1,10 +1,15 @@
 // What one image may take, and when it is good enough.
 #pragma once
 
+#include "protocol/basis/cubemap.h"
 #include "protocol/relighting/budget.h"
 #include "protocol/wire/sections/section.h"
 
 namespace relume::wire {
+
+// That any scene has: as many as the largest cubemap has texels.
+inline constexpr double kMostColumns =
+    6.0 * basis::kMaxFaceResolution * basis::kMaxFaceResolution;
 
 inline constexpr std::array kBudgetFields{
     field::number<&relighting::Budget::milliseconds>(
@@ -13,7 +18,9 @@ inline constexpr std::array kBudgetFields{
         "of an image from edit to encoded picture: relighting gets what is left of them")
         .one_of(),
     field::integer<&relighting::Budget::coefficients>(
-        "coefficients", {1, 393216}, "applied for an image")
+        "coefficients",
+        {1, kMostColumns},
+        "applied for an image; from the scene's `columns` on it is all of them")
         .one_of(),
     field::number<&relighting::Budget::target_error>(
         "target_error", {0, 1}, "relative L2 at which an image has settled; 0 asks for exact"),

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "protocol/base/text/name_table.h"
-#include "protocol/wire/limits.h"
 #include "protocol/wire/range.h"
 
 #include <Imath/ImathQuat.h>
@@ -50,8 +49,6 @@ struct FieldRule {
     std::span<const std::string_view> words{};
     Presence presence = Presence::always;
     bool is_needed = false;  // a new entry of a keyed section has to state it
-    // Where a limit in force bounds an integer below its range.
-    std::uint64_t Limits::*limit = nullptr;
 };
 
 // Nothing, or the one alternative that the field's kind says: double, uint32, bool, V3d (triple
@@ -74,11 +71,6 @@ struct Field {
     [[nodiscard]] constexpr Field one_of() const {
         Field field = *this;
         field.rule.presence = Presence::one_of;
-        return field;
-    }
-    [[nodiscard]] constexpr Field limited_by(std::uint64_t Limits::*limit) const {
-        Field field = *this;
-        field.rule.limit = limit;
         return field;
     }
 };

@@ -38,18 +38,6 @@ std::string word_from_json(const FieldRule& rule, const json& value, const std::
     return word;
 }
 
-std::uint32_t limited_integer_from_json(const FieldRule& rule,
-                                        const json& value,
-                                        const std::string& path,
-                                        const Limits& limits) {
-    auto highest = static_cast<std::uint64_t>(rule.range.highest);
-    if (rule.limit != nullptr) {
-        highest = std::min(highest, limits.*rule.limit);
-    }
-    return static_cast<std::uint32_t>(
-        integer_from_json(value, path, static_cast<std::uint64_t>(rule.range.lowest), highest));
-}
-
 }  // namespace
 
 json json_from_value(const FieldValue& value) {
@@ -69,10 +57,7 @@ json json_from_value(const FieldValue& value) {
         value);
 }
 
-FieldValue value_from_json(const FieldRule& rule,
-                           const json& value,
-                           const std::string& path,
-                           const Limits& limits) {
+FieldValue value_from_json(const FieldRule& rule, const json& value, const std::string& path) {
     if (value.is_null() && rule.presence == Presence::optional) {
         return {};
     }
@@ -80,7 +65,9 @@ FieldValue value_from_json(const FieldRule& rule,
         case FieldKind::number:
             return number_from_json(value, path, rule.range);
         case FieldKind::integer:
-            return limited_integer_from_json(rule, value, path, limits);
+            return static_cast<std::uint32_t>(
+                integer_from_json(value, path, static_cast<std::uint64_t>(rule.range.lowest),
+                                  static_cast<std::uint64_t>(rule.range.highest)));
         case FieldKind::flag:
             return flag_from_json(value, path);
         case FieldKind::triple:

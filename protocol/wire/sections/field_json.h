@@ -17,8 +17,7 @@ namespace relume::wire {
 // and quaternions normalised. Throws WireError{wrong_type} or {out_of_range} at `path`.
 [[nodiscard]] FieldValue value_from_json(const FieldRule& rule,
                                          const nlohmann::json& value,
-                                         const std::string& path,
-                                         const Limits& limits);
+                                         const std::string& path);
 
 // How a normalised patch states `value`, which was read from `stated`: triples as they came.
 [[nodiscard]] nlohmann::json normal_form(const FieldRule& rule,

@@ -2,6 +2,7 @@
 // fields.
 #pragma once
 
+#include "protocol/wire/limits.h"
 #include "protocol/wire/sections/field.h"
 #include "protocol/wire/stages.h"
 

@@ -51,11 +51,8 @@ class SectionPatch {
   public:
     using json = nlohmann::json;
 
-    SectionPatch(const Section<Owner>& section,
-                 const json& patch,
-                 std::string path,
-                 const Limits& limits)
-        : section_(section), limits_(limits), path_(std::move(path)), reader_(patch, path_) {}
+    SectionPatch(const Section<Owner>& section, const json& patch, std::string path)
+        : section_(section), path_(std::move(path)), reader_(patch, path_) {}
 
     // Throws WireError{missing_field} where a new entry has to state a field and does not.
     void require_needed() {
@@ -88,8 +85,7 @@ class SectionPatch {
   private:
     void take(const Field<Owner>& field, const json& stated, Owner& owner) {
         const FieldRule& rule = field.rule;
-        const FieldValue value =
-            value_from_json(rule, stated, reader_.path_to(rule.key), limits_);
+        const FieldValue value = value_from_json(rule, stated, reader_.path_to(rule.key));
         field.set(owner, value);
         normalised_[std::string(rule.key)] = normal_form(rule, value, stated);
     }
@@ -164,7 +160,6 @@ class SectionPatch {
     }
 
     const Section<Owner>& section_;
-    const Limits& limits_;
     std::string path_;
     ObjectReader reader_;
     std::string_view spelled_key_;
@@ -176,8 +171,8 @@ template <typename Owner>
                                            Owner& owner,
                                            const nlohmann::json& patch,
                                            const std::string& path,
-                                           const Limits& limits) {
-    return SectionPatch<Owner>(section, patch, path, limits).apply(owner);
+                                           const Limits& /*limits*/) {
+    return SectionPatch<Owner>(section, patch, path).apply(owner);
 }
 
 // A new entry comes with all its fields, null for those it has not: merged over the removal of
@@ -207,7 +202,7 @@ template <typename Entry>
             }
             continue;
         }
-        SectionPatch<Entry> entry_patch(section.entry, change, entry_path, limits);
+        SectionPatch<Entry> entry_patch(section.entry, change, entry_path);
         const auto known = entries.find(id);
         if (known == entries.end()) {
             entry_patch.require_needed();

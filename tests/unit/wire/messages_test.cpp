@@ -155,6 +155,27 @@ TEST(ServerMessages, ASnapshotMustBeWholeAndOfThisVersion) {
     EXPECT_EQ(server_refusal_of(newer).code(), ErrorCode::unsupported);
 }
 
+TEST(ServerMessages, WhatANewerServerSaysMoreOfTheStateIsIgnored) {
+    json snapshot = json::parse(text_from_message(busy_snapshot()));
+    const RoomState state = busy_snapshot().state;
+    snapshot["state"]["camera"] = {{"eye", {0, 1, 2}}};
+    snapshot["state"]["environment"]["horizon"] = 0.5;
+    for (json& light : snapshot["state"]["lights"]) {
+        light["falloff"] = "square";
+    }
+    EXPECT_EQ(std::get<Snapshot>(parse_server_message(snapshot.dump())).state, state);
+
+    const json patch = {{"rotation", {{"yaw_degrees", 90}}}, {"lights", {{"key", nullptr}}}};
+    json more = patch;
+    more["camera"] = nullptr;
+    more["rotation"]["about"] = "y";
+    const json change = {{"type", "change"}, {"revision", 9}, {"patch", more}};
+    EXPECT_EQ(std::get<Change>(parse_server_message(change.dump())).patch, patch);
+    // What is not of its type is refused still.
+    snapshot["state"]["lights"] = 3;
+    EXPECT_EQ(server_refusal_of(snapshot).code(), ErrorCode::wrong_type);
+}
+
 TEST(ServerMessages, ChangeErrorAndViewersRoundTrip) {
     const Change change{.revision = 8, .patch = {{"lights", {{"a", nullptr}}}}, .edit_id = 17};
     const auto parsed = std::get<Change>(parse_server_message(text_from_message(change)));

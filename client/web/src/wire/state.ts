@@ -87,7 +87,7 @@ export interface StrategyState {
 export interface BudgetState {
     /** Of an image from edit to encoded picture: relighting gets what is left of them. */
     milliseconds?: number | null;
-    /** Applied for an image. */
+    /** Applied for an image; from the scene's `columns` on it is all of them. */
     coefficients?: number | null;
     /** Relative L2 at which an image has settled; 0 asks for exact. */
     target_error: number;
