@@ -96,18 +96,13 @@ export class LightsPanel {
             const position = { u: model.azimuth / 360 + 0.5, v: 0.5 - model.elevation / 180 };
             this.apply({ direction: directionFromPosition(position) });
         };
-        pane.addBinding(model, "azimuth", {
-            label: "azimuth °",
-            min: -180,
-            max: 180,
-            step: 0.1,
-        }).on("change", aim);
-        pane.addBinding(model, "elevation", {
-            label: "elevation °",
-            min: -89.5,
-            max: 89.5,
-            step: 0.1,
-        }).on("change", aim);
+        for (const [key, limit] of [
+            ["azimuth", 180],
+            ["elevation", 89.5],
+        ] as const) {
+            const options = { label: `${key} °`, min: -limit, max: limit, step: 0.1 };
+            pane.addBinding(model, key, options).on("change", aim);
+        }
     }
 
     private apply(fields: Partial<AreaLight>): void {

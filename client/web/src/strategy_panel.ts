@@ -78,23 +78,14 @@ export class StrategyPanel {
             this.showAmount();
         });
         explain(kind, "How much an image may cost: less is quicker and further from exact.");
-        const milliseconds = folder
-            .addBinding(model, "milliseconds", {
-                label: "ms",
-                min: 0.5,
-                max: kMostMilliseconds,
-                step: 0.5,
-            })
-            .on("change", () => this.controls.edit({ budget: this.budgetPatch() }));
-        const coefficients = folder
-            .addBinding(model, "coefficients", {
-                label: "count",
-                min: 1,
-                max: kMostCoefficients,
-                step: 1,
-            })
-            .on("change", () => this.controls.edit({ budget: this.budgetPatch() }));
-        return { milliseconds, coefficients };
+        const slider = (key: BudgetKind, label: string, step: number, max: number) =>
+            folder
+                .addBinding(model, key, { label, min: step, max, step })
+                .on("change", () => this.controls.edit({ budget: this.budgetPatch() }));
+        return {
+            milliseconds: slider("milliseconds", "ms", 0.5, kMostMilliseconds),
+            coefficients: slider("coefficients", "count", 1, kMostCoefficients),
+        };
     }
 
     private addTargetBinding(folder: FolderApi): void {
