@@ -8,8 +8,27 @@ namespace {
 
 using nlohmann::json;
 
-// The merge patch that takes back what `patch` does to `before`, an object with null for what
-// could be there and is not.
+// What a section holds of what `patch` names, null for what could be there and is not.
+template <typename Owner>
+json named_by(const json& /*patch*/, const Section<Owner>& section, const Owner& owner) {
+    return to_json(section, owner, Absent::null);
+}
+
+// Of entries only those: there may be many.
+template <typename Entry>
+json named_by(const json& patch,
+              const KeyedSection<Entry>& section,
+              const std::map<std::string, Entry>& entries) {
+    json named = json::object();
+    for (const auto& [id, change] : patch.items()) {
+        if (const auto known = entries.find(id); known != entries.end()) {
+            named[id] = to_json(section.entry, known->second, Absent::null);
+        }
+    }
+    return named;
+}
+
+// The merge patch that takes back what `patch` does to `before`.
 json inverse_of(const json& patch, const json& before) {
     json inverse = json::object();
     for (const auto& [key, change] : patch.items()) {
@@ -41,7 +60,7 @@ AppliedPatch apply_patch(RoomState& state, const json& patch, const Limits& limi
             patch_section(section, next.*member, *change, reader.path_to(key), limits);
         if (!normalised.empty()) {
             applied.inverse[key] =
-                inverse_of(normalised, to_json(section, state.*member, Absent::null));
+                inverse_of(normalised, named_by(normalised, section, state.*member));
             applied.patch[key] = std::move(normalised);
         }
     });

@@ -1,15 +1,13 @@
 // What one image may take, and when it is good enough.
 #pragma once
 
-#include "protocol/basis/cubemap.h"
 #include "protocol/relighting/budget.h"
 #include "protocol/wire/sections/section.h"
 
 namespace relume::wire {
 
-// That any scene has: as many as the largest cubemap has texels.
-inline constexpr double kMostColumns =
-    6.0 * basis::kMaxFaceResolution * basis::kMaxFaceResolution;
+// As many columns as a scene has at most, in the largest basis; a test holds the two together.
+inline constexpr std::uint32_t kMostColumns = 393216;
 
 inline constexpr std::array kBudgetFields{
     field::number<&relighting::Budget::milliseconds>(

@@ -35,11 +35,10 @@ template <typename Owner>
 
 template <typename Entry>
 [[nodiscard]] nlohmann::json to_json(const KeyedSection<Entry>& section,
-                                     const std::map<std::string, Entry>& entries,
-                                     Absent absent = Absent::left_out) {
+                                     const std::map<std::string, Entry>& entries) {
     auto object = nlohmann::json::object();
     for (const auto& [id, entry] : entries) {
-        object[id] = to_json(section.entry, entry, absent);
+        object[id] = to_json(section.entry, entry);
     }
     return object;
 }

@@ -1,5 +1,7 @@
 #include "protocol/wire/room_patch.h"
 
+#include "protocol/basis/cubemap.h"
+#include "protocol/wire/sections/budget.h"
 #include "tests/unit/wire/vectors.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +143,14 @@ TEST(RoomPatch, AnInverseIsTheOldValuesOfWhatThePatchNames) {
                         {"solo", false},
                         {"order", 0}}}}}}));
     EXPECT_EQ(inverse({{"display", json::object()}}), json::object());
+}
+
+TEST(RoomPatch, ABudgetMayHoldAllColumnsOfTheLargestBasis) {
+    EXPECT_EQ(kMostColumns,
+              basis::kFaceCount * basis::kMaxFaceResolution * basis::kMaxFaceResolution);
+    RoomState state;
+    apply_patch(state, {{"budget", {{"coefficients", kMostColumns}}}}, Limits{});
+    EXPECT_EQ(state.budget.coefficients, kMostColumns);
 }
 
 TEST(RoomPatch, AStoredStateThatLacksSectionsHasTheirDefaults) {
