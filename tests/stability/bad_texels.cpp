@@ -177,7 +177,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure bad_texels() {
     return {.name = "bad_texels",
-            .where = "7.9",
             .what = "negative, NaN and infinite texels get into the image",
             .scene = "table, n = 16; Debian's CC0 maps and an EXR file made for the purpose",
             .provoke = provoke};

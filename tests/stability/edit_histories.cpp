@@ -150,7 +150,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure edit_histories() {
     return {.name = "edit_histories",
-            .where = "issue 4",
             .what = "the image depends on how it was reached",
             .scene =
                 "random transport in all encodings, grey and colour, 40x24, n = 8; random "

@@ -128,7 +128,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure extreme_lighting() {
     return {.name = "extreme_lighting",
-            .where = "issue 4",
             .what = "sums overflow to infinity and NaN",
             .scene =
                 "random transport, 40x24, n = 8; lighting of any size to its opposite and "

@@ -150,7 +150,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure face_crossing() {
     return {.name = "face_crossing",
-            .where = "7.6",
             .what = "a small light jumps or fades where it crosses from face to face",
             .scene = "an open white plane; a light of 1 degree walks in steps of 1/20 texel",
             .provoke = provoke};

@@ -16,8 +16,7 @@ struct Outcome {
 };
 
 struct Failure {
-    std::string_view name;   // "ghosts"
-    std::string_view where;  // its number in README.md of this folder: "7.1"
+    std::string_view name;   // "ghosts": its name in README.md of this folder, too
     std::string_view what;   // one sentence: what goes wrong
     std::string_view scene;  // what provokes it
     // The same numbers for the same seed and effort, on any number of threads.

@@ -40,9 +40,8 @@ std::string line_from(const Finding& finding) {
 }
 
 std::string text_from(const Result& result) {
-    std::string text =
-        fmt::format("{} ({}): {}\n  {}\n", result.failure.name, result.failure.where,
-                    result.failure.what, result.failure.scene);
+    std::string text = fmt::format("{}: {}\n  {}\n", result.failure.name, result.failure.what,
+                                   result.failure.scene);
     for (const Finding& finding : result.outcome.findings) {
         text += "  " + line_from(finding) + "\n";
     }
@@ -65,7 +64,6 @@ nlohmann::json json_from(std::span<const Result> results) {
             findings.push_back(std::move(entry));
         }
         failures.push_back({{"name", result.failure.name},
-                            {"where", result.failure.where},
                             {"what", result.failure.what},
                             {"scene", result.failure.scene},
                             {"holds", result.holds()},

@@ -146,7 +146,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure ghosts() {
     return {.name = "ghosts",
-            .where = "7.1",
             .what = "a bright light leaves a trail where it was",
             .scene =
                 "table; a light of 6 degrees and radiance 300 turns by 17 degrees an image "

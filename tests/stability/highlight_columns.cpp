@@ -207,7 +207,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure highlight_columns() {
     return {.name = "highlight_columns",
-            .where = "7.8",
             .what = "one huge entry of a column takes the precision from all others",
             .scene =
                 "a mirror-like ball (GGX, roughness 0.06) on a matte floor, 32x32, n = 16, "

@@ -80,7 +80,7 @@ Outcome provoke(Workbench& workbench) {
     outcome.findings = {
         {"NWA-30: popping Σ‖Δ(B̃−B)‖²/Σ‖ΔB‖²", Sense::at_least, 1, nwa.energy, kFrozen},
         {"NWA-100: the same", Sense::at_most, 1, more.energy,
-         "README 7.3: under a hundred terms it shows"},
+         "a hundred terms move less than a frozen image is wrong by"},
         {"NWA with all terms: the same", Sense::at_most, rounding * rounding, all.energy,
          "rounding of float sums alone: 2·10·ε‖B‖ an image"},
         {"PBI-30: the same, of NWA-30's", Sense::at_most, 1, pbi.energy / nwa.energy,
@@ -112,7 +112,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure popping() {
     return {.name = "popping",
-            .where = "7.3",
             .what = "coefficients that cross the threshold switch on and off",
             .scene = "table, n = 32; the CC0 map studio turns by 0.3 degrees an image",
             .provoke = provoke};

@@ -132,7 +132,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure repeated_rotation() {
     return {.name = "repeated_rotation",
-            .where = "7.5",
             .what = "a map that is turned again and again blurs and loses energy",
             .scene = "table; the procedural afternoon sky with its sun, 10⁴ random turns",
             .provoke = provoke};

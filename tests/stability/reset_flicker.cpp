@@ -133,7 +133,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure reset_flicker() {
     return {.name = "reset_flicker",
-            .where = "7.2",
             .what = "a band toggles between reset and increment",
             .scene = "table, n = 32; the CC0 map night turns by 3 degrees an image",
             .provoke = provoke};

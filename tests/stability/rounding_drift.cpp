@@ -194,7 +194,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure rounding_drift() {
     return {.name = "rounding_drift",
-            .where = "7.4",
             .what = "what was bright leaves its rounding behind",
             .scene =
                 "table, 32x32, n = 8; a lamp of radiance 1e5 is on for ten edits of every "

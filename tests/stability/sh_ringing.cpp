@@ -285,7 +285,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure sh_ringing() {
     return {.name = "sh_ringing",
-            .where = "7.12",
             .what = "light rings around suns and is negative in every other ring",
             .scene = "table, 96x72, n = 32, direct light; a sun of 1 degree in an empty sky",
             .provoke = provoke};

@@ -153,7 +153,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure slow_rest() {
     return {.name = "slow_rest",
-            .where = "issue 4",
             .what = "an image at rest moves away from where it goes",
             .scene = "table, n = 32; the CC0 map studio jumps by 110 degrees and rests",
             .provoke = provoke};

@@ -112,7 +112,6 @@ Outcome provoke(Workbench& workbench) {
 
 Failure small_lights() {
     return {.name = "small_lights",
-            .where = "7.7",
             .what = "the energy of a light below the texel's size depends on where it stands",
             .scene = "an open white plane; lights of 0.05 to 1 degree at random places, n = 16",
             .provoke = provoke};

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <vector>
+
 namespace relume::stability {
 namespace {
 
@@ -33,7 +36,7 @@ void write_report(const std::filesystem::path& folder,
         page.warning(fmt::format("Interrupted after {} failures.", results.size()));
     }
     for (const Result& result : results) {
-        page.heading(fmt::format("{} ({})", result.failure.name, result.failure.where));
+        page.heading(std::string(result.failure.name));
         page.paragraph(
             fmt::format("{}. Scene: {}.", result.failure.what, result.failure.scene));
         if (!result.holds()) {

@@ -1,10 +1,12 @@
 #include "precompute/scene/camera.h"
 
 #include "precompute/scene/error.h"
+#include "protocol/transport/manifest.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace relume::scene {
@@ -34,15 +36,46 @@ TEST(Camera, MiddleOfThePictureLooksForwardAndEdgesSpanTheFieldOfView) {
     EXPECT_NEAR(right.x / -right.z, 1.5F * std::tan(0.5235988F), 1e-5F);
 }
 
-TEST(Camera, RaysAreThoseOfTheManifest) {
-    const Camera camera({.eye = {1, 1, 4}, .look_at = {0, 0.2F, 0}}, 31, 17);
-    const float x = 20;
-    const float y = 3;
-    const Imath::V3f expected =
-        camera.forward() +
-        camera.right() * ((2.0F * (x + 0.5F) / 31.0F - 1.0F) * camera.tan_half_width()) +
-        camera.up() * ((1.0F - 2.0F * (y + 0.5F) / 17.0F) * camera.tan_half_height());
-    expect_near(camera.direction_from_pixel(x + 0.5F, y + 0.5F), expected.normalized());
+TEST(Camera, CornersOfThePictureAreThoseOfTheFieldOfView) {
+    // 90 degrees high and twice as wide, looking along −Z: the corners are (±2, ±1, −1).
+    const Camera camera({.eye = {3, -1, 2}, .look_at = {3, -1, 0}, .vertical_fov_degrees = 90},
+                        8, 4);
+    expect_near(camera.direction_from_pixel(0, 0), Imath::V3f(-2, 1, -1).normalized());
+    expect_near(camera.direction_from_pixel(8, 0), Imath::V3f(2, 1, -1).normalized());
+    expect_near(camera.direction_from_pixel(0, 4), Imath::V3f(-2, -1, -1).normalized());
+    expect_near(camera.direction_from_pixel(8, 4), Imath::V3f(2, -1, -1).normalized());
+}
+
+// Who reads a transport takes its rays from the manifest's camera: background and image must
+// meet at the outlines of what was baked.
+TEST(Camera, ManifestsCameraHasTheSameRays) {
+    constexpr std::uint32_t kWidth = 31;
+    constexpr std::uint32_t kHeight = 17;
+    const transport::TileGrid image{.width = kWidth, .height = kHeight};
+    for (const float fov : {5.0F, 40.0F, 120.0F}) {
+        const Camera baked({.eye = {1, 1, 4},
+                            .look_at = {-2, 0.2F, 0},
+                            .up = {0.1F, 1, 0.3F},
+                            .vertical_fov_degrees = fov},
+                           kWidth, kHeight);
+        const transport::CameraRecord read{.eye = baked.eye(),
+                                           .right = baked.right(),
+                                           .up = baked.up(),
+                                           .forward = baked.forward(),
+                                           .tan_half_width = baked.tan_half_width(),
+                                           .tan_half_height = baked.tan_half_height()};
+        for (std::uint32_t y = 0; y <= 2 * kHeight; ++y) {
+            for (std::uint32_t x = 0; x <= 2 * kWidth; ++x) {
+                const float column = static_cast<float>(x) / 2;
+                const float row = static_cast<float>(y) / 2;
+                EXPECT_LT((baked.direction_from_pixel(column, row) -
+                           read.direction_from_pixel(column, row, image))
+                              .length(),
+                          1e-6F)
+                    << column << ", " << row << ", " << fov << " degrees";
+            }
+        }
+    }
 }
 
 TEST(Camera, UpAlongTheViewIsReplaced) {
