@@ -52,10 +52,10 @@ void add_load_command(CLI::App& app) {
     add_server_options(*command, options->server);
     LoadOptions& load = options->load;
     command->add_option("--scene", load.scene, "scene name on the server")->required();
-    command->add_option("--sessions", load.dragging, "sessions that drag")
+    command->add_option("--sessions", load.dragging, "connections that drag")
         ->check(CLI::Range(std::size_t{0}, kMaxLoadConnections))
         ->capture_default_str();
-    command->add_option("--idle", load.idle, "sessions that only watch")
+    command->add_option("--idle", load.idle, "connections that only watch")
         ->check(CLI::Range(std::size_t{0}, kMaxLoadConnections))
         ->capture_default_str();
     command->add_option("--rate", load.rate_hz, "edits per second of each dragging connection")
