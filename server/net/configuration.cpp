@@ -115,9 +115,9 @@ void add_places(OptionSet& options, Configuration& c) {
 }
 
 void add_access(OptionSet& options, Configuration& c) {
-    options.add("token", c.token, "Asked of sessions and uploads; none by default");
+    options.add("token", c.token, "Asked of who enters a room or uploads; none by default");
     options.add("allow-origin", c.allow_origins,
-                "Origin besides the server's own whose pages may open sessions; * for all");
+                "Origin besides the server's own whose pages may enter rooms; * for all");
     options.add("allow-host", c.allow_hosts,
                 "Name besides the address listened on under which the server may be asked, as "
                 "behind a proxy; * for all");

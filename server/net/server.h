@@ -10,8 +10,8 @@ namespace relume::net {
 
 class Metrics;
 
-// Begins to listen and to open scenes when made, and ends when it dies. Its functions may be
-// called from any thread.
+// A server listens and opens scenes from its construction on, and ends with its destruction.
+// Its functions may be called from any thread.
 class Server {
   public:
     // Throws ListenError, or std::runtime_error for folders that cannot be read.
@@ -22,7 +22,7 @@ class Server {
     ~Server();
 
     [[nodiscard]] std::uint16_t port() const;
-    // Until all scenes have been opened.
+    // Waits until all scenes have been opened.
     void wait_until_started() const;
     [[nodiscard]] const Metrics& metrics() const;
 

@@ -55,7 +55,8 @@ struct Metrics::Families {
     Counter& sent_bytes =
         counter(registry, "relume_sent_bytes_total", "Bytes sent over WebSockets");
     Counter& edits = counter(registry, "relume_edits_total", "Edits accepted");
-    Counter& steps = counter(registry, "relume_steps_total", "Relighting steps");
+    Counter& steps =
+        counter(registry, "relume_steps_total", "Relighting steps, or slices of them");
     Counter& coefficients = counter(
         registry, "relume_coefficients_applied_total", "Transport columns added to images");
     Counter& column_bytes =
@@ -74,8 +75,8 @@ struct Metrics::Families {
         time_histogram(registry,
                        "relume_lighting_seconds",
                        "Time from a changed state to its lighting and background");
-    Histogram& relight_seconds =
-        time_histogram(registry, "relume_relight_seconds", "Time of one relighting step");
+    Histogram& relight_seconds = time_histogram(
+        registry, "relume_relight_seconds", "Time of one relighting step, or slice of it");
     Histogram& compose_seconds = time_histogram(
         registry, "relume_compose_seconds", "Time to put relit image and background together");
     Histogram& encode_seconds =
@@ -106,7 +107,7 @@ void Metrics::observe_lighting(double seconds) {
     families_->lighting_seconds.Observe(seconds);
 }
 
-void Metrics::count_step(const engine::StepReport& step, double relight_seconds) {
+void Metrics::count_slice(const engine::StepReport& step, double relight_seconds) {
     families_->steps.Increment();
     families_->coefficients.Increment(step.applied);
     families_->column_bytes.Increment(static_cast<double>(step.bytes_touched));
@@ -172,7 +173,7 @@ void Metrics::set_dropped_log_lines(std::uint64_t count) {
     families_->dropped_log_lines.Set(static_cast<double>(count));
 }
 
-std::uint64_t Metrics::steps() const {
+std::uint64_t Metrics::slices() const {
     return static_cast<std::uint64_t>(families_->steps.Value());
 }
 std::uint64_t Metrics::images(wire::ImageEncoding encoding) const {

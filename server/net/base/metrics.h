@@ -28,7 +28,7 @@ class Metrics {
 
     // From a changed state to lighting coefficients and background.
     void observe_lighting(double seconds);
-    void count_step(const engine::StepReport& step, double relight_seconds);
+    void count_slice(const engine::StepReport& step, double relight_seconds);
     void observe_compose(double seconds);
     void count_image(wire::ImageEncoding encoding, std::size_t bytes, double encode_seconds);
     void observe_edit_to_image(double seconds);
@@ -46,8 +46,8 @@ class Metrics {
     void set_environment_bytes(std::size_t bytes);
     void set_dropped_log_lines(std::uint64_t count);
 
-    // Steps taken by all sessions so far: stands still when every room is at rest.
-    [[nodiscard]] std::uint64_t steps() const;
+    // Slices relit for all rooms so far: stands still when every room is at rest.
+    [[nodiscard]] std::uint64_t slices() const;
     [[nodiscard]] std::uint64_t images(wire::ImageEncoding encoding) const;
 
   private:

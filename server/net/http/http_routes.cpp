@@ -40,7 +40,7 @@ std::optional<std::string_view> thumbnail_name(std::string_view path) {
     return name_between(path, "/api/scenes/", "/thumbnail.png");
 }
 
-// The page reads the query of its own address, and a request for a session has rules of its
+// The page reads the query of its own address, and a request to enter a room has rules of its
 // own; no other path takes parameters.
 bool may_have_parameters(std::string_view path) {
     return path.starts_with(kSessionPrefix) ||

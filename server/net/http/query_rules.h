@@ -14,7 +14,7 @@ namespace relume::net {
 [[nodiscard]] std::optional<HttpReply> fault_of_query(
     const RequestTarget& target, std::initializer_list<std::string_view> known);
 
-// Of a request for a session: every parameter known, `images` one of its words, and a version
+// Of a request to enter a room: every parameter known, `images` one of its words, and a version
 // of the protocol among those the client offers, if it offers any.
 [[nodiscard]] std::optional<HttpReply> fault_of_session_request(const HttpRequest& request);
 

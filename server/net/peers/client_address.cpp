@@ -1,5 +1,7 @@
 #include "server/net/peers/client_address.h"
 
+#include "server/net/peers/plain_address.h"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -8,12 +10,6 @@ namespace relume::net {
 namespace ip = boost::asio::ip;
 
 namespace {
-
-ip::address plain(const ip::address& address) {
-    return address.is_v6() && address.to_v6().is_v4_mapped()
-               ? ip::make_address_v4(ip::v4_mapped, address.to_v6())
-               : address;
-}
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kSpace = " \t";
@@ -26,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 std::string quota_key(const ip::address& address) {
-    const ip::address own = plain(address);
+    const ip::address own = plain_address(address);
     if (own.is_v4()) {
         return own.to_string();
     }
@@ -38,7 +34,7 @@ std::string quota_key(const ip::address& address) {
 TrustedProxies::TrustedProxies(const std::vector<std::string>& addresses) {
     for (const std::string& text : addresses) {
         boost::system::error_code error;
-        addresses_.push_back(plain(ip::make_address(text, error)));
+        addresses_.push_back(plain_address(ip::make_address(text, error)));
         if (error) {
             throw std::runtime_error("--trusted-proxy: found \"" + text +
                                      "\", expected an IPv4 or IPv6 address");
@@ -47,12 +43,13 @@ TrustedProxies::TrustedProxies(const std::vector<std::string>& addresses) {
 }
 
 bool TrustedProxies::trusts(const ip::address& peer) const {
-    return std::find(addresses_.begin(), addresses_.end(), plain(peer)) != addresses_.end();
+    return std::find(addresses_.begin(), addresses_.end(), plain_address(peer)) !=
+           addresses_.end();
 }
 
 ip::address TrustedProxies::client_of(const ip::address& peer,
                                       std::string_view forwarded_for) const {
-    ip::address client = plain(peer);
+    ip::address client = plain_address(peer);
     while (trusts(client) && !forwarded_for.empty()) {
         const std::size_t comma = forwarded_for.rfind(',');
         const std::string_view last =
@@ -63,7 +60,7 @@ ip::address TrustedProxies::client_of(const ip::address& peer,
         if (error) {
             break;
         }
-        client = plain(named);
+        client = plain_address(named);
     }
     return client;
 }

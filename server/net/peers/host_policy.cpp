@@ -1,6 +1,7 @@
 #include "server/net/peers/host_policy.h"
 
 #include "server/net/peers/authority.h"
+#include "server/net/peers/plain_address.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,20 +10,10 @@ namespace relume::net {
 
 namespace ip = boost::asio::ip;
 
-namespace {
-
-ip::address plain(const ip::address& address) {
-    return address.is_v6() && address.to_v6().is_v4_mapped()
-               ? ip::make_address_v4(ip::v4_mapped, address.to_v6())
-               : address;
-}
-
-}  // namespace
-
 HostPolicy::HostPolicy(std::string_view listen,
                        ip::address address,
                        const std::vector<std::string>& allowed)
-    : address_(plain(address)) {
+    : address_(plain_address(address)) {
     if (const auto authority = authority_from_text(listen)) {
         listen_host_ = authority->host;
     }
@@ -58,7 +49,7 @@ bool HostPolicy::listens_as(const std::string& host) const {
         return on_loopback;
     }
     boost::system::error_code error;
-    const ip::address named = plain(ip::make_address(host, error));
+    const ip::address named = plain_address(ip::make_address(host, error));
     if (error) {
         return false;
     }

@@ -1,4 +1,4 @@
-// Which pages' scripts may open sessions and upload.
+// Which pages' scripts may enter rooms and upload.
 #pragma once
 
 #include "server/net/peers/authority.h"

@@ -1,4 +1,4 @@
-// The environments that a session's state names.
+// The environments that a room's state names.
 #pragma once
 
 #include "protocol/wire/room_state.h"

@@ -1,10 +1,10 @@
-// What waits to be sent to one client. Its size is bounded whatever the client does.
+// What waits to be sent to one viewer. Its size is bounded, whatever the viewer does.
 //
-// Nothing queues up behind a slow reader: unsent changes merge into one, which gives way to a
-// snapshot before it grows large; of the viewer count only the last is kept, and the newest
-// image replaces an unsent one. At most `images_in_flight` images are sent before the client
-// acknowledges one. Messages become text when they are taken, without a lock held: who puts one
-// never waits for that.
+// Nothing queues up behind a slow reader. Unsent changes merge into one, and a snapshot takes
+// its place before it grows large. The last viewer count and the newest image replace unsent
+// ones. At most `images_in_flight` images are sent before the viewer acknowledges one. A
+// message becomes text when it is taken, outside the lock: whoever puts one never waits for
+// that.
 #pragma once
 
 #include "protocol/wire/limits.h"
@@ -38,25 +38,25 @@ class Outbox {
 
     Outbox(ImageInterest interest, const wire::Limits& limits);
 
-    // Called (from any thread, without locks held) when there is something to take again after
-    // `take` had nothing. Set before the outbox is shared.
+    // `wake` is called, from any thread and without a lock held, when there is something to
+    // take after `take` had nothing. Set it before the outbox is shared.
     void set_wake(std::function<void()> wake) { wake_ = std::move(wake); }
 
-    // In place of all changes so far. The id of an edit among them, which its author waits for,
-    // is kept, as that of an empty change after the snapshot.
+    // The snapshot replaces all unsent changes. If one of them answers an edit of this viewer,
+    // an empty change with the edit's id follows the snapshot.
     void put_snapshot(std::shared_ptr<const wire::Snapshot> snapshot);
-    // False, and nothing done, if the unsent change would then name more than kMaxMergedLights
-    // lights: a snapshot is due. One change alone is always taken.
+    // Returns false and does nothing if the merged change would name more than
+    // kMaxMergedLights lights: a snapshot is due then. One change alone is always taken.
     [[nodiscard]] bool put_change(const wire::Change& change);
-    // The edit of this id is in a snapshot that is put instead of its change.
+    // Tells the author that a snapshot which was put instead of a change holds the edit.
     void confirm(std::uint64_t revision, std::uint64_t edit_id);
-    // Of unsent ones the last `errors_per_connection` are kept.
+    // The last `errors_per_connection` unsent errors are kept.
     void put_error(const wire::ErrorMessage& error);
     void put_viewers(std::uint32_t count);
     // True if an unsent image was dropped for it.
     bool put_image(SharedImageFrame image);
-    // Ends with this code; the first call counts. When the server shuts down, or there were
-    // too many errors, all else that may be sent goes before.
+    // Ends the outbox with this code; the first call counts. When the server shuts down, or
+    // the viewer made too many errors, whatever else may be sent goes before.
     void close(wire::CloseCode code);
 
     // Image `sequence` and all before it have been received.
@@ -66,8 +66,8 @@ class Outbox {
     [[nodiscard]] bool wants_moving_image() const;
     [[nodiscard]] ImageInterest interest() const { return interest_; }
 
-    // JPEGs that are made from now on have it. It is no edit: nothing is relit, and the image
-    // of a state that rests, being linear, stands.
+    // JPEGs that are made for this viewer from now on have this display. It is no edit:
+    // nothing is relit, and the settled image, being linear, stands.
     void choose_display(const wire::DisplayChoice& display);
     [[nodiscard]] wire::DisplayChoice display() const;
 

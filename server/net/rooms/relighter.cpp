@@ -149,7 +149,7 @@ void Relighter::advance_together(std::span<Relighter* const> relighters) {
 }
 
 void Relighter::relit(const engine::StepReport& report, Clock::duration spent) {
-    metrics_.count_step(report, seconds(spent));
+    metrics_.count_slice(report, seconds(spent));
     budget_.slice_took(milliseconds(spent), report.applied);
     relight_time_ += spent;
     applied_ += report.applied;

@@ -7,7 +7,8 @@ namespace relume::net {
 
 namespace {
 
-// Who took more than its share while nobody else wanted it is not held to that for longer.
+// An item that took more than its part while nobody else wanted it is not held to that for
+// longer.
 constexpr std::chrono::milliseconds kLargestDebt{500};
 
 }  // namespace
@@ -15,8 +16,8 @@ constexpr std::chrono::milliseconds kLargestDebt{500};
 void WorkAccount::charge(Clock::time_point begin,
                          Clock::duration taken,
                          std::size_t competitors) {
-    const auto share = taken * static_cast<Clock::duration::rep>(competitors);
-    paid_until_ = std::min(std::max(paid_until_, begin) + share, begin + taken + kLargestDebt);
+    const auto whole = taken * static_cast<Clock::duration::rep>(competitors);
+    paid_until_ = std::min(std::max(paid_until_, begin) + whole, begin + taken + kLargestDebt);
 }
 
 WorkerPool::WorkerPool(std::size_t threads, LargestCompany largest_company)

@@ -14,11 +14,11 @@
 
 namespace relume::net {
 
-// Until when an item's share of the workers is used up by what it has taken: as if, of so many
-// items that compete, each were given its part of every moment. Of the pool.
+// Until when an item has had its part of the workers: as if each of the items that compete were
+// given an equal part of every moment. Kept by the pool.
 class WorkAccount {
   public:
-    // What was measured, from `begin` on, while so many competed.
+    // The item ran for so long, from `begin` on, while so many competed.
     void charge(Clock::time_point begin, Clock::duration taken, std::size_t competitors);
     [[nodiscard]] Clock::time_point paid_until() const { return paid_until_; }
 
@@ -26,7 +26,7 @@ class WorkAccount {
     Clock::time_point paid_until_{};
 };
 
-// What a worker runs, one short slice at a time; it queues itself again if more is left.
+// What a worker runs, one slice at a time. An item queues itself again if more is left to do.
 class WorkItem {
   public:
     WorkItem() = default;
@@ -34,9 +34,11 @@ class WorkItem {
     WorkItem& operator=(const WorkItem&) = delete;
     virtual ~WorkItem() = default;
 
-    // Items that give the same, and not null, may be run together.
+    // Names the item's company. Items of one company may run together; an item that gives null
+    // runs alone.
     [[nodiscard]] virtual const void* company() const noexcept { return nullptr; }
-    // With others of its company that were waiting too and are off the queue now.
+    // Runs one slice, of this item and of `others`: members of its company that were waiting
+    // too, and have left the queue with it.
     virtual void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept = 0;
 
   private:
@@ -47,15 +49,17 @@ class WorkItem {
 // Edits that someone waits for go before images that merely get better.
 enum class WorkPriority : std::uint8_t { edit, refinement };
 
-// Thread-safe. The queue is in the order of deadlines: an edit's is when it was read, a
-// refinement's some while after it was queued, so that edits go first and do not starve it. But
-// no deadline is earlier than the item's account is paid: who takes long slices comes less
-// often, and who takes short ones never waits for more than those that run. An item is in the
-// queue at most once, so the queue is never longer than there are items. With nothing queued no
-// thread wakes.
+// Thread-safe.
+//
+// The queue is in the order of deadlines. The deadline of an edit is the moment it was read;
+// that of a refinement lies kRefinementPatience after it was queued. So edits go first, and no
+// refinement starves. An item never stands earlier than its account allows: one that takes long
+// slices comes less often, and one that takes short slices waits only for those that run. Each
+// item is in the queue at most once, so the queue is never longer than there are items. While
+// nothing is queued no thread wakes.
 class WorkerPool {
   public:
-    // What a refinement waits at most while there are edits.
+    // A refinement waits no longer than this for the edits before it.
     static constexpr std::chrono::milliseconds kRefinementPatience{100};
 
     // How many items of one company, all of one priority, are taken off the queue together at

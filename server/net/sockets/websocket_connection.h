@@ -12,9 +12,9 @@
 
 namespace relume::net {
 
-// Answers the upgrade, serves the session and closes it. `upgrade` is the request as received,
-// `request` the same as the routes see it, `room` a valid name. Never throws for what a peer
-// does.
+// Answers the upgrade, serves the viewer and closes the connection. `upgrade` is the request as
+// received, `request` the same as the routes see it, `room` a valid name. Never throws for what
+// a peer does.
 [[nodiscard]] boost::asio::awaitable<void> serve_websocket(
     boost::beast::tcp_stream stream,
     boost::beast::http::request<boost::beast::http::empty_body> upgrade,

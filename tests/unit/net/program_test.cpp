@@ -18,6 +18,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace relume::net {
@@ -197,6 +198,27 @@ TEST_F(ProgramTest, HangUpLooksForEnvironments) {
     fs::remove(environments_.path() / "late.hdr");
     server.signal(SIGHUP);
     EXPECT_TRUE(eventually([&] { return listed().find("\"late\"") == std::string::npos; }));
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+}
+
+// A decoder that never answers: it would be ended after half a minute, for want of time.
+TEST_F(ProgramTest, ADecodeEndsWithItsClient) {
+    std::vector<std::string> all = flags();
+    all.insert(all.end(), {"--decoder", RELUME_MISBEHAVING_DECODER});
+    Process server(all, log());
+    const std::uint16_t port = wait_until_ready();
+    {
+        RawSocket client(port);
+        client.send(
+            "POST /api/environments?name=m HTTP/1.1\r\nHost: localhost\r\n"
+            "Content-Length: 4\r\n\r\nhang");
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // so that it has begun
+    }
+    EXPECT_TRUE(eventually(
+        [&] { return text_of(log()).find("upload_refused name=m") != std::string::npos; }));
+    EXPECT_NE(text_of(log()).find("nobody waits for the answer"), std::string::npos)
+        << text_of(log());
     server.signal(SIGTERM);
     EXPECT_EQ(server.wait(), 0);
 }

@@ -47,7 +47,7 @@ struct HttpAnswer {
                               const std::string& fields = {},
                               const std::string& body = {});
 
-// An upgrade to a session, and frames by hand [RFC 6455 §5.2].
+// An upgrade into a room, and frames by hand [RFC 6455 §5.2].
 [[nodiscard]] std::string upgrade_request(const std::string& target);
 [[nodiscard]] std::string masked_text_frame(const std::string& text);
 

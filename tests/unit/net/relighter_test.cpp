@@ -69,13 +69,13 @@ class RelighterTest : public testing::Test {
     }
     void expect_no_relighting(const json& patch) {
         const int lightings = measured_lightings();
-        const std::uint64_t slices = metrics_.steps();
+        const std::uint64_t slices = metrics_.slices();
         edit(patch);
         EXPECT_TRUE(relighter_->at_rest()) << patch;
         EXPECT_TRUE(relighter_->step_is_complete()) << patch;
         relight();
         EXPECT_EQ(measured_lightings(), lightings) << patch;
-        EXPECT_EQ(metrics_.steps(), slices) << patch;
+        EXPECT_EQ(metrics_.slices(), slices) << patch;
     }
 
     TinyScenes folder_;

@@ -69,11 +69,11 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
 TEST_F(RoomImagesTest, ARestingRoomComputesNothing) {
     const Seat viewer = enter();
     ASSERT_NE(settled_image(viewer, 0), nullptr);
-    const std::uint64_t steps = metrics_.steps();
+    const std::uint64_t slices = metrics_.slices();
     const std::uint64_t images = metrics_.images(wire::ImageEncoding::jpeg) +
                                  metrics_.images(wire::ImageEncoding::half_planes);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    EXPECT_EQ(metrics_.steps(), steps);
+    EXPECT_EQ(metrics_.slices(), slices);
     EXPECT_EQ(metrics_.images(wire::ImageEncoding::jpeg) +
                   metrics_.images(wire::ImageEncoding::half_planes),
               images);
@@ -97,9 +97,9 @@ TEST_F(RoomImagesTest, NothingIsEncodedForClientsThatDoNotAcknowledge) {
     }));
     const std::uint64_t jpegs = metrics_.images(wire::ImageEncoding::jpeg);
     EXPECT_GT(jpegs, 0U);
-    const std::uint64_t steps = metrics_.steps();
+    const std::uint64_t slices = metrics_.slices();
     viewer.edit({{"environment", {{"gain", ++gain}}}});
-    EXPECT_TRUE(eventually([&] { return metrics_.steps() > steps; }));
+    EXPECT_TRUE(eventually([&] { return metrics_.slices() > slices; }));
     EXPECT_TRUE(
         eventually([&] { return !viewer.room->has_pending_edit(); }));  // its settled image
     EXPECT_EQ(metrics_.images(wire::ImageEncoding::jpeg), jpegs);
@@ -123,7 +123,7 @@ TEST_F(RoomImagesTest, ADisplayOrPolicyEditLeavesTheSettledImageBitForBit) {
     viewer.edit({{"rotation", {{"yaw_degrees", 40}}}});
     const SharedImageFrame before = settled_image(viewer, 1);
     ASSERT_TRUE(before);
-    const std::uint64_t steps = metrics_.steps();
+    const std::uint64_t slices = metrics_.slices();
     const std::uint64_t encoded = metrics_.images(wire::ImageEncoding::half_planes);
     std::uint64_t revision = 1;
     std::uint64_t sequence = before->header.sequence;
@@ -139,7 +139,7 @@ TEST_F(RoomImagesTest, ADisplayOrPolicyEditLeavesTheSettledImageBitForBit) {
         sequence = after->header.sequence;
         EXPECT_EQ(payload_of(after), payload_of(before)) << patch;
     }
-    EXPECT_EQ(metrics_.steps(), steps);
+    EXPECT_EQ(metrics_.slices(), slices);
     EXPECT_EQ(metrics_.images(wire::ImageEncoding::half_planes), encoded);
     // Its header is one that clients take.
     const SharedImageFrame late = settled_image(enter(ImageInterest::settled), revision);
@@ -174,24 +174,24 @@ TEST_F(RoomImagesTest, ADisplayEditIsShownInAJpegWithoutRelighting) {
     };
     const SharedImageFrame before = exact_jpeg(0);
     ASSERT_TRUE(before);
-    const std::uint64_t steps = metrics_.steps();
+    const std::uint64_t slices = metrics_.slices();
     viewer.edit({{"display", {{"exposure_stops", -1}}}});
     const SharedImageFrame after = exact_jpeg(1);
     ASSERT_TRUE(after);
     EXPECT_NE(payload_of(after), payload_of(before));
-    EXPECT_EQ(metrics_.steps(), steps);
+    EXPECT_EQ(metrics_.slices(), slices);
 }
 
 TEST_F(RoomImagesTest, AnotherBackgroundIsComposedAndNotRelit) {
     const Seat viewer = enter(ImageInterest::settled);
     const SharedImageFrame before = settled_image(viewer, 0);
     ASSERT_TRUE(before);
-    const std::uint64_t steps = metrics_.steps();
+    const std::uint64_t slices = metrics_.slices();
     viewer.edit({{"background", {{"mode", "colour"}, {"colour", {3, 2, 1}}}}});
     const SharedImageFrame after = settled_image(viewer, 1);
     ASSERT_TRUE(after);
     EXPECT_NE(payload_of(after), payload_of(before));
-    EXPECT_EQ(metrics_.steps(), steps);
+    EXPECT_EQ(metrics_.slices(), slices);
 }
 
 // A policy that asks for more than the settled image holds is followed.

@@ -36,7 +36,7 @@ class RunningServer : public testing::Test {
     [[nodiscard]] bool metrics_say(const std::string& line) const {
         return server_->metrics().text().find(line + "\n") != std::string::npos;
     }
-    // Whatever has happened: a newcomer gets a session and its image.
+    // Whatever has happened: a newcomer is let in and gets his image.
     void expect_serves_on();
 
     TinyScenes scenes_;

@@ -122,7 +122,7 @@ nlohmann::json WebSocketClient::receive_message(const std::string& type) {
             return message;
         }
     }
-    throw std::runtime_error("the session ended before a message of type " + type);
+    throw std::runtime_error("the connection ended before a message of type " + type);
 }
 
 WebSocketClient::Frame WebSocketClient::receive_settled(std::uint64_t revision) {
@@ -137,7 +137,7 @@ WebSocketClient::Frame WebSocketClient::receive_settled(std::uint64_t revision) 
             return *std::move(frame);
         }
     }
-    throw std::runtime_error("the session ended before a settled image");
+    throw std::runtime_error("the connection ended before a settled image");
 }
 
 unsigned WebSocketClient::receive_close() {

@@ -1,4 +1,4 @@
-// A client of a session as tests need it: one thread, every wait with a deadline.
+// A client of a room as tests need it: one thread, every wait with a deadline.
 #pragma once
 
 #include "protocol/wire/image_header.h"

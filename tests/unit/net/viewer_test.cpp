@@ -1,4 +1,4 @@
-// Sessions over real sockets: what well-meaning clients see.
+// Over real sockets: what well-meaning viewers see.
 #include "protocol/wire/half_image.h"
 #include "tests/unit/net/running_server.h"
 #include "tests/unit/net/websocket_client.h"
@@ -19,9 +19,9 @@ json gain_edit(double gain, std::uint64_t id = 1) {
     return {{"type", "edit"}, {"id", id}, {"patch", {{"environment", {{"gain", gain}}}}}};
 }
 
-class SessionTest : public RunningServer {};
+class ViewerTest : public RunningServer {};
 
-TEST_F(SessionTest, BeginsWithTheSnapshotAndConvergesToExact) {
+TEST_F(ViewerTest, BeginsWithTheSnapshotAndConvergesToExact) {
     start();
     WebSocketClient client(port(), "/session/room-1?scene=tiny");
     const auto first = client.receive();
@@ -44,7 +44,7 @@ TEST_F(SessionTest, BeginsWithTheSnapshotAndConvergesToExact) {
     EXPECT_EQ(header.revision, 0U);
 }
 
-TEST_F(SessionTest, EditsComeBackNormalisedAndTheImageHoldsThem) {
+TEST_F(ViewerTest, EditsComeBackNormalisedAndTheImageHoldsThem) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny");
     client.send(
@@ -56,7 +56,7 @@ TEST_F(SessionTest, EditsComeBackNormalisedAndTheImageHoldsThem) {
     EXPECT_EQ(client.receive_settled(1).image_header().revision, 1U);
 }
 
-TEST_F(SessionTest, TwoClientsSeeTheSameBytesAndALateJoinerToo) {
+TEST_F(ViewerTest, TwoClientsSeeTheSameBytesAndALateJoinerToo) {
     start();
     WebSocketClient author(port(), "/session/r?scene=tiny");
     static_cast<void>(author.receive_message("snapshot"));  // now there is a room to join
@@ -79,7 +79,7 @@ TEST_F(SessionTest, TwoClientsSeeTheSameBytesAndALateJoinerToo) {
     EXPECT_EQ(first_image->bytes, seen_by_author.bytes);
 }
 
-TEST_F(SessionTest, SequenceAndRevisionNeverFallAndStatedErrorEndsAtZero) {
+TEST_F(ViewerTest, SequenceAndRevisionNeverFallAndStatedErrorEndsAtZero) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny");
     for (int i = 1; i <= 20; ++i) {
@@ -103,7 +103,7 @@ TEST_F(SessionTest, SequenceAndRevisionNeverFallAndStatedErrorEndsAtZero) {
     EXPECT_EQ(last.relative_error, 0);
 }
 
-TEST_F(SessionTest, ATokenMayComeInAHeaderOrAsASubprotocol) {
+TEST_F(ViewerTest, ATokenMayComeInAHeaderOrAsASubprotocol) {
     configuration_.token = "secret";
     start();
     const std::string target = "/session/r?scene=tiny&images=settled";
@@ -130,7 +130,7 @@ std::vector<MovingImage> images_until_exact(WebSocketClient& client, std::uint64
     while (images.empty() || !images.back().header.exact) {
         const auto frame = client.receive();
         if (!frame) {
-            throw std::runtime_error("the session ended before an exact image");
+            throw std::runtime_error("the connection ended before an exact image");
         }
         if (!frame->binary) {
             continue;
@@ -162,7 +162,7 @@ double squared_relative_l2(const wire::HalfImage& image, const wire::HalfImage& 
 }
 
 // From outside: the errors that are stated of a drag's images are those they have.
-TEST_F(SessionTest, FloatsWhileMovingHaveTheStatedErrors) {
+TEST_F(ViewerTest, FloatsWhileMovingHaveTheStatedErrors) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny&images=moving-float");
     double stated_squares = 0;
@@ -194,7 +194,7 @@ TEST_F(SessionTest, FloatsWhileMovingHaveTheStatedErrors) {
     EXPECT_LT(stated_squares, 2 * true_squares);
 }
 
-TEST_F(SessionTest, EveryViewerHasADisplayOfHisOwn) {
+TEST_F(ViewerTest, EveryViewerHasADisplayOfHisOwn) {
     start();
     WebSocketClient dark(port(), "/session/r?scene=tiny");
     static_cast<void>(dark.receive_message("snapshot"));
@@ -223,7 +223,7 @@ TEST_F(SessionTest, EveryViewerHasADisplayOfHisOwn) {
 }
 
 // The room's display is an edit, but of nothing that is relit.
-TEST_F(SessionTest, AnEditOfTheDisplayLosesNoExactness) {
+TEST_F(ViewerTest, AnEditOfTheDisplayLosesNoExactness) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny");
     static_cast<void>(client.receive_settled(0));
@@ -245,7 +245,7 @@ TEST_F(SessionTest, AnEditOfTheDisplayLosesNoExactness) {
     }
 }
 
-TEST_F(SessionTest, ViewersAreCounted) {
+TEST_F(ViewerTest, ViewersAreCounted) {
     start();
     WebSocketClient first(port(), "/session/r?scene=tiny&images=settled");
     EXPECT_EQ(first.receive_message("viewers")["count"], 1);
@@ -256,7 +256,7 @@ TEST_F(SessionTest, ViewersAreCounted) {
     EXPECT_EQ(first.receive_message("viewers")["count"], 1);
 }
 
-TEST_F(SessionTest, MetricsTellWhatHappened) {
+TEST_F(ViewerTest, MetricsTellWhatHappened) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny");
     client.send(gain_edit(2));
@@ -269,7 +269,7 @@ TEST_F(SessionTest, MetricsTellWhatHappened) {
     EXPECT_TRUE(eventually([&] { return metrics_say("relume_clients 0"); }));
 }
 
-TEST_F(SessionTest, RoomsThatEverybodyLeftAreDropped) {
+TEST_F(ViewerTest, RoomsThatEverybodyLeftAreDropped) {
     configuration_.rooms.linger = std::chrono::milliseconds(20);
     start();
     {
@@ -279,7 +279,7 @@ TEST_F(SessionTest, RoomsThatEverybodyLeftAreDropped) {
     EXPECT_TRUE(eventually([&] { return metrics_say("relume_rooms 0"); }));
 }
 
-TEST_F(SessionTest, RefusalsHaveTheirCloseCodes) {
+TEST_F(ViewerTest, RefusalsHaveTheirCloseCodes) {
     configuration_.token = "secret";
     configuration_.limits.rooms = 1;
     configuration_.limits.clients_per_room = 1;
@@ -298,7 +298,7 @@ TEST_F(SessionTest, RefusalsHaveTheirCloseCodes) {
     EXPECT_EQ(close_code("/session/s?scene=tiny&token=secret"), 4007U);
 }
 
-TEST_F(SessionTest, OtherPagesAreRefusedUnlessAllowed) {
+TEST_F(ViewerTest, OtherPagesAreRefusedUnlessAllowed) {
     configuration_.allow_origins = {"http://dev.example"};
     start();
     const std::string target = "/session/r?scene=tiny";
@@ -311,7 +311,7 @@ TEST_F(SessionTest, OtherPagesAreRefusedUnlessAllowed) {
     EXPECT_EQ(allowed.receive_message("snapshot")["room"], "r");
 }
 
-TEST_F(SessionTest, DrainingFinishesTheImageAndSaysGoodbye) {
+TEST_F(ViewerTest, DrainingFinishesTheImageAndSaysGoodbye) {
     start();
     WebSocketClient client(port(), "/session/r?scene=tiny");
     static_cast<void>(client.receive_settled(0));
