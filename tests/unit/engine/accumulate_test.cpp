@@ -64,6 +64,9 @@ Segment segment_of(const std::vector<QuantisedCell>& cells, std::size_t misalign
     return segment;
 }
 
+// Floats in the widest vector, of 512 bits.
+constexpr std::size_t kMostLanes = 16;
+
 std::vector<QuantisedCell> cells_of_every_kind() {
     std::mt19937 random(3);
     std::vector<QuantisedCell> cells;
@@ -114,12 +117,13 @@ TEST(Accumulate, ScalarAddsWhatTheCellsHold) {
 // every size, cells of every kind next to each other, at every alignment.
 TEST(Accumulate, EveryTargetGivesTheBitsOfTheScalar) {
     std::mt19937 random(5);
-    for (const std::size_t count : {1UL, 2UL, 7UL, kMaxGroupSegments + 9}) {
+    for (const std::size_t count :
+         {1UL, 2UL, 3UL, 7UL, kMaxGroupSegments, kMaxGroupSegments + 9}) {
         std::vector<Segment> segments;
         for (std::size_t s = 0; s < count; ++s) {
             auto cells = cells_of_every_kind();
             std::shuffle(cells.begin(), cells.end(), random);
-            segments.push_back(segment_of(cells, s % 5));
+            segments.push_back(segment_of(cells, (s + count) % 17));
         }
         const auto list = weighted(segments);
         const std::uint32_t blocks = segments[0].block_count;
@@ -130,16 +134,27 @@ TEST(Accumulate, EveryTargetGivesTheBitsOfTheScalar) {
         for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
             hwy::SetSupportedTargetsForTest(target);
             hwy::GetChosenTarget().DeInit();
-            std::vector<float> sums(expected.size() + 1, 0.75F);
-            // One float off the alignment of any vector.
-            std::span<float> misaligned = std::span(sums).subspan(1);
-            std::vector<float> total(expected.size(), 0.25F);
-            accumulate_segments(list, blocks,
-                                {.sums = misaligned.data(), .total = total.data()});
-            EXPECT_TRUE(std::equal(expected.begin(), expected.end(), misaligned.begin()))
-                << count << " segments on " << hwy::TargetName(target);
-            EXPECT_EQ(total, expected_total);
-            EXPECT_EQ(sums[0], 0.75F);
+            for (std::size_t misalignment = 0; misalignment < kMostLanes; ++misalignment) {
+                // Sums and total are off the alignment of vectors by different numbers of
+                // floats; one float behind each shows that nothing beside them is written.
+                const std::size_t other = kMostLanes - 1 - misalignment;
+                std::vector<float> sums(misalignment + expected.size() + 1, 0.75F);
+                std::vector<float> total(other + expected.size() + 1, 0.25F);
+                accumulate_segments(
+                    list, blocks,
+                    {.sums = sums.data() + misalignment, .total = total.data() + other});
+                const auto name = hwy::TargetName(target);
+                EXPECT_TRUE(
+                    std::equal(expected.begin(), expected.end(), sums.data() + misalignment))
+                    << count << " segments, " << misalignment << " floats off, on " << name;
+                EXPECT_TRUE(std::equal(expected_total.begin(), expected_total.end(),
+                                       total.data() + other))
+                    << count << " segments, " << other << " floats off, on " << name;
+                EXPECT_TRUE(std::all_of(sums.data(), sums.data() + misalignment,
+                                        [](float value) { return value == 0.75F; }));
+                EXPECT_EQ(sums.back(), 0.75F);
+                EXPECT_EQ(total.back(), 0.25F);
+            }
         }
         hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().DeInit();

@@ -121,26 +121,51 @@ RC_GTEST_PROP(LooseColumns, AreWhatTheTotalHoldsAndBandsDoNot, ()) {
         }
         RC_ASSERT(books.held == not_loose);
         RC_ASSERT(*std::max_element(bytes.begin(), bytes.end()) <=
-                  LooseColumns::kLooseImages * scene().stored_operator().sum_count() * sizeof(float) + largest);
+                  LooseColumns::kLooseImages * scene().stored_operator().sum_count() *
+                          sizeof(float) +
+                      largest);
         RC_ASSERT(is_ordered(loose.columns()));
         RC_ASSERT(is_ordered(split.total_alone));
         RC_ASSERT(is_ordered(split.total_and_band));
     }
 }
 
+// Of every band the first columns are loose, until they have more bytes than a few images of
+// sums; the others go into the image of their band as well.
 TEST(LooseColumns, GoToTheirBandWhenThereAreMany) {
+    const ColumnTable& table = scene().columns();
+    const std::uint64_t most_bytes =
+        LooseColumns::kLooseImages * scene().stored_operator().sum_count() * sizeof(float);
     std::vector<ColumnChange> changes;
-    for (const std::uint32_t j : scene().columns().by_band()) {
-        changes.push_back({.column = j, .to = {1, 1, 1}});
+    std::vector<std::uint32_t> loose_alone;
+    std::vector<std::uint32_t> with_band;
+    for (std::uint32_t band = 0; band < table.band_count(); ++band) {
+        std::uint64_t bytes = 0;
+        for (const std::uint32_t j : table.of_band(band)) {
+            changes.push_back({.column = j, .to = {1, 1, 1}});
+            (bytes > most_bytes ? with_band : loose_alone).push_back(j);
+            bytes += bytes > most_bytes ? 0 : table.bytes(j);
+        }
     }
+    ASSERT_FALSE(with_band.empty()) << "the scene has a band of more bytes than may be loose";
     LooseColumns loose(scene().stored_operator());
     LooseColumns::Split split;
     loose.update(0, changes, split);
-    EXPECT_FALSE(split.total_alone.empty());
-    EXPECT_FALSE(split.total_and_band.empty());
+    const auto expect_columns = [](std::span<const ColumnChange> found,
+                                   const std::vector<std::uint32_t>& expected) {
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            EXPECT_EQ(found[i].column, expected[i]);
+            EXPECT_TRUE(found[i].from == Amounts{});
+            EXPECT_TRUE((found[i].to == Amounts{1, 1, 1}));
+        }
+    };
+    expect_columns(split.total_alone, loose_alone);
+    expect_columns(split.total_and_band, with_band);
+    expect_columns(loose.columns(), loose_alone);
     loose.clear();
     loose.update(0, std::span(changes).first(5), split);
-    EXPECT_EQ(split.total_alone.size(), 5U);
+    expect_columns(split.total_alone, {loose_alone.begin(), loose_alone.begin() + 5});
     EXPECT_TRUE(split.total_and_band.empty());
 }
 

@@ -27,7 +27,8 @@ class SelectionTest : public testing::TestWithParam<relighting::Priority> {
         Plan plan;
         plan.bands_to_reset = bands_to_reset;
         ranking_.rank(scene_.columns(), lighting_, scene_.columns().weights(GetParam()));
-        selection_.choose(scene_.columns(), lighting_, ranking_, scene_.columns().places(), budget, plan);
+        selection_.choose(scene_.columns(), lighting_, ranking_, scene_.columns().places(),
+                          budget, plan);
         return plan;
     }
 
@@ -61,17 +62,6 @@ TEST_P(SelectionTest, TakesTheMostImportantDifferences) {
             return std::pair(scene_.columns().bands()[a.column], a.column) <
                    std::pair(scene_.columns().bands()[b.column], b.column);
         }));
-    }
-}
-
-TEST(Benefit, IsTheEnergyAColumnAddsPerByte) {
-    const TinyScene tiny;
-    const auto& transport = tiny.transport();
-    const auto weights = tiny.scene()->columns().weights(relighting::Priority::benefit);
-    for (std::size_t j = 0; j < transport.column_count(); ++j) {
-        const double weight = weights[j];
-        EXPECT_NEAR(weight * weight * transport.column_bytes(j), transport.energy(j, 0),
-                    1e-5 * transport.energy(j, 0));
     }
 }
 
@@ -173,7 +163,8 @@ TEST_P(SelectionTest, TheShortlistHoldsWhatIsChosenOfAll) {
             ranking_.shortlist(scene_.columns(), budget, places);
             Plan of_shortlist;
             of_shortlist.bands_to_reset = mask;
-            selection_.choose(scene_.columns(), lighting_, ranking_, places, budget, of_shortlist);
+            selection_.choose(scene_.columns(), lighting_, ranking_, places, budget,
+                              of_shortlist);
             ASSERT_EQ(of_shortlist.changes.size(), of_all.changes.size());
             for (std::size_t i = 0; i < of_all.changes.size(); ++i) {
                 EXPECT_EQ(of_shortlist.changes[i].column, of_all.changes[i].column);

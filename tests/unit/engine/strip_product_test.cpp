@@ -26,7 +26,9 @@ struct Strips {
     std::vector<std::uint16_t> columns;
     std::vector<Value> values;
 
-    explicit Strips(std::mt19937& random) {
+    // Columns and values begin so many of them off the alignment of vectors.
+    Strips(std::size_t misalignment, std::mt19937& random)
+        : columns(misalignment), values(misalignment), misalignment_(misalignment) {
         constexpr std::array<std::uint32_t, 6> kCounts{0, 1, 2, 7, 64, 129};
         for (std::size_t place = 0; place < kStripsPerBlock; ++place) {
             begins[place + 1] = begins[place] + kCounts[random() % kCounts.size()];
@@ -39,11 +41,14 @@ struct Strips {
         }
     }
     [[nodiscard]] StripRun<Value> run(float scale) const {
-        return {.columns = columns.data(),
-                .values = values.data(),
+        return {.columns = columns.data() + misalignment_,
+                .values = values.data() + misalignment_,
                 .begins = begins,
                 .scale = scale};
     }
+
+  private:
+    std::size_t misalignment_;
 };
 
 std::vector<float> random_floats(std::size_t count, std::mt19937& random) {
@@ -54,19 +59,23 @@ std::vector<float> random_floats(std::size_t count, std::mt19937& random) {
 }
 
 struct Members {
+    std::size_t misalignment;
     std::vector<std::vector<float>> weights;
     std::vector<std::vector<float>> sums;
 
-    Members(std::size_t count, std::mt19937& random) {
+    Members(std::size_t count, std::size_t floats_off, std::mt19937& random)
+        : misalignment(floats_off) {
         for (std::size_t m = 0; m < count; ++m) {
-            weights.push_back(random_floats(kColumns * kWeightsPerColumn, random));
-            sums.push_back(random_floats(kColours * kBlockSize, random));
+            weights.push_back(
+                random_floats(misalignment + kColumns * kWeightsPerColumn, random));
+            sums.push_back(random_floats(misalignment + kColours * kBlockSize + 1, random));
         }
     }
     std::vector<StripTarget> targets() {
         std::vector<StripTarget> targets;
         for (std::size_t m = 0; m < weights.size(); ++m) {
-            targets.push_back({.weights = weights[m].data(), .sums = sums[m].data()});
+            targets.push_back({.weights = weights[m].data() + misalignment,
+                               .sums = sums[m].data() + misalignment});
         }
         return targets;
     }
@@ -76,10 +85,12 @@ template <typename Value>
 void expect_the_specification(MultiplyStrips<Value>& kernel,
                               MultiplyStrips<Value>& specification) {
     std::mt19937 random(5);
-    for (const std::size_t count : {1UL, 2UL, 3UL, 4UL, 5UL, 9UL, 16UL}) {
-        const Strips<Value> strips(random);
+    // Every number of targets up to beyond a group, and a misalignment of its own for each.
+    for (std::size_t count = 1; count <= 2 * 16; ++count) {
+        const std::size_t misalignment = count % 16;
+        const Strips<Value> strips(misalignment, random);
         const auto run = strips.run(count % 2 == 0 ? 256.0F : 1.0F);
-        Members expected(count, random);
+        Members expected(count, misalignment, random);
         const Members before = expected;
         for (const StripTarget& target : expected.targets()) {  // each by itself
             specification(run, {&target, 1});
