@@ -100,7 +100,9 @@ std::string read_beginning(const std::filesystem::path& path,
 std::string read_regular_file(const std::filesystem::path& path,
                               std::size_t max_bytes,
                               Links links) {
-    std::string bytes = read_beginning(path, max_bytes + 1, links);
+    // One byte more shows that there are more; nothing is longer than the largest number.
+    const std::size_t most = std::max(max_bytes, max_bytes + 1);
+    std::string bytes = read_beginning(path, most, links);
     if (bytes.size() > max_bytes) {
         throw FileError(fmt::format("{}: found more than {} bytes, expected at most that",
                                     path.string(), max_bytes));

@@ -10,6 +10,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 namespace relume::files {
 namespace {
@@ -34,6 +35,8 @@ TEST_F(RegularFile, IsReadWhole) {
     std::ofstream(path_) << "some bytes";
     EXPECT_EQ(read_regular_file(path_, 10), "some bytes");
     EXPECT_THROW(static_cast<void>(read_regular_file(path_, 9)), FileError);
+    // No bound at all.
+    EXPECT_EQ(read_regular_file(path_, std::numeric_limits<std::size_t>::max()), "some bytes");
 }
 
 // With no writer at its other end, opening a pipe waits for ever: the test would not end.
