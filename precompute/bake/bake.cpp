@@ -8,6 +8,7 @@
 #include "precompute/bake/shard_baker.h"
 #include "precompute/bake/version.h"
 #include "precompute/bake/view_files.h"
+#include "protocol/base/timing/stopwatch.h"
 #include "protocol/transport/transport_writer.h"
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <ctime>
 #include <mutex>
 #include <optional>
@@ -24,23 +24,17 @@
 namespace relume::bake {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Adds the time until it is destroyed.
-class Stopwatch {
+// Adds to a total, in seconds, the time from when it is made until it is destroyed.
+class AddedTime {
   public:
-    explicit Stopwatch(double& total) : total_(total) {}
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-    ~Stopwatch() { total_ += seconds_since(start_); }
+    explicit AddedTime(double& total) : total_(total) {}
+    AddedTime(const AddedTime&) = delete;
+    AddedTime& operator=(const AddedTime&) = delete;
+    ~AddedTime() { total_ += stopwatch_.seconds(); }
 
   private:
     double& total_;
-    Clock::time_point start_ = Clock::now();
+    timing::Stopwatch stopwatch_;
 };
 
 // Whole tile rows where one fits into a shard, else a part of a row.
@@ -145,9 +139,9 @@ class Bake {
     }
 
     BakeSummary run() {
-        const auto start = Clock::now();
+        const timing::Stopwatch stopwatch;
         {
-            const Stopwatch watch(summary_.pilot_seconds);
+            const AddedTime adding(summary_.pilot_seconds);
             quantisation_ = plan_quantisation(rows_, window_, image_, parameters_);
             manifest_.sampling_error = measure_sampling_error(caster_, camera_, parameters_);
         }
@@ -160,10 +154,10 @@ class Bake {
             bake_shard(shard, shards, writer, notes);
         }
         {
-            const Stopwatch watch(summary_.finish_seconds);
+            const AddedTime adding(summary_.finish_seconds);
             finish(writer, notes);
         }
-        summary_.seconds = seconds_since(start);
+        summary_.seconds = stopwatch.seconds();
         summary_.peak_memory_bytes = peak_memory_bytes();
         return summary_;
     }
@@ -182,14 +176,14 @@ class Bake {
         }
         const CpuWatch cpu(summary_.cpu_seconds);
         {
-            const Stopwatch watch(summary_.path_seconds);
+            const AddedTime adding(summary_.path_seconds);
             const std::uint32_t last_row = (first + count - 1) / image_.tiles_x() + 1;
             const std::uint64_t rays =
                 window_.move_to(first / image_.tiles_x() * transport::kTileSide,
                                 std::min(last_row * transport::kTileSide, image_.height));
             summary_.path_rays += rays;
         }
-        const Stopwatch watch(summary_.row_seconds);
+        const AddedTime adding(summary_.row_seconds);
         const BakedShard baked =
             shards.bake(first, count, [&](std::uint64_t pixels, std::uint64_t rays) {
                 return progress_.add(pixels, rays);

@@ -1,11 +1,12 @@
 #include "server/engine/session.h"
 
+#include "protocol/base/timing/stopwatch.h"
+
 #include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,17 +40,6 @@ constexpr std::size_t kCompanyForFullProduct = 8;
 // Without allocation, while no more are relit together than a sweep takes.
 template <typename T>
 using PerSession = boost::container::small_vector<T, kMaxBatchMembers>;
-
-class Stopwatch {
-  public:
-    [[nodiscard]] double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 }  // namespace
 
@@ -142,7 +132,7 @@ Session::Decision Session::decide(const Allowance& allowance) {
 }
 
 const Plan& Session::next_plan(const SelectionBudget& budget) {
-    const Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     if (!target_is_new_) {
         const Plan& plan = planner_.go_on(signal_, strategy_, budget);
         cost_.record_overhead(stopwatch.milliseconds());
@@ -180,7 +170,7 @@ SelectionBudget Session::selection_budget(const Allowance& allowance) const {
 }
 
 void Session::carry_out(std::span<const PlannedStep> steps) {
-    const Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     std::uint64_t bytes = 0;
     for (std::size_t first = 0; first < steps.size(); first += kMaxBatchMembers) {
         const auto batch =
@@ -306,7 +296,7 @@ void Session::advance_full_products(std::span<SessionStep* const> steps, std::si
             products[i]->start(steps[i]->session->signal_.target(), first_block);
         }
     }
-    const Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     std::uint64_t bytes = 0;
     const auto somebody_waits_for_all = [&] {
         return std::any_of(steps.begin(), steps.end(), [](const SessionStep* step) {

@@ -14,7 +14,7 @@ namespace relume::light {
 namespace {
 
 constexpr std::uint32_t kSamplesPerSide = 4;
-constexpr std::uint32_t kTileSide = 4;  // a face resolution is a multiple of it
+constexpr std::uint32_t kPatchSide = 4;  // of texels; a face resolution is a multiple of it
 
 struct Covered {
     std::size_t texel;
@@ -34,9 +34,9 @@ class Rasteriser {
 
     [[nodiscard]] std::vector<Covered> run() {
         for (std::uint32_t face = 0; face < basis::kFaceCount; ++face) {
-            for (std::uint32_t row = 0; row < n_; row += kTileSide) {
-                for (std::uint32_t column = 0; column < n_; column += kTileSide) {
-                    visit_tile({static_cast<basis::Face>(face), row, column});
+            for (std::uint32_t row = 0; row < n_; row += kPatchSide) {
+                for (std::uint32_t column = 0; column < n_; column += kPatchSide) {
+                    visit_patch({static_cast<basis::Face>(face), row, column});
                 }
             }
         }
@@ -52,15 +52,15 @@ class Rasteriser {
         return std::numbers::sqrt2_v<float> * side_in_texels / static_cast<float>(n_);
     }
 
-    void visit_tile(const basis::Texel& first) {
-        constexpr float kHalf = static_cast<float>(kTileSide) / 2;
+    void visit_patch(const basis::Texel& first) {
+        constexpr float kHalf = static_cast<float>(kPatchSide) / 2;
         const Imath::V3f centre = basis::direction_from_texel(n_, first, kHalf, kHalf);
         const float distance = (centre - direction_).length();
-        if (distance > disc_.outer_radius() + reach(kTileSide)) {
+        if (distance > disc_.outer_radius() + reach(kPatchSide)) {
             return;
         }
-        for (std::uint32_t row = first.row; row < first.row + kTileSide; ++row) {
-            for (std::uint32_t column = first.column; column < first.column + kTileSide;
+        for (std::uint32_t row = first.row; row < first.row + kPatchSide; ++row) {
+            for (std::uint32_t column = first.column; column < first.column + kPatchSide;
                  ++column) {
                 visit_texel({first.face, row, column});
             }

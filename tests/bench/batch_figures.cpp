@@ -1,5 +1,6 @@
 // Sixteen sessions of one scene in one sweep against each by itself.
 #include "protocol/relighting/budget.h"
+#include "protocol/base/timing/stopwatch.h"
 #include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
 #include "tests/bench/figure_groups.h"
@@ -101,7 +102,7 @@ struct Gain {
 
 template <typename Work>
 double timed(const Work& work) {
-    const test::Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     work();
     return stopwatch.seconds();
 }

@@ -1,5 +1,6 @@
 // Dragging without approximation: every image is the exact one.
 #include "protocol/relighting/budget.h"
+#include "protocol/base/timing/stopwatch.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
 #include "tests/bench/workbench.h"
@@ -19,11 +20,11 @@ void measure(Workbench& workbench, Results& results) {
         std::size_t bytes = 0;
         std::uint64_t bytes_touched = 0;
         double seconds = 0;
-        test::Stopwatch stopwatch;
+        timing::Stopwatch stopwatch;
         // The first image warms up.
         for (std::size_t image = 0; image <= images; ++image) {
             if (image == 1) {
-                stopwatch = test::Stopwatch();
+                stopwatch = timing::Stopwatch();
                 steps = 0;
                 bytes_touched = 0;
             }

@@ -1,6 +1,7 @@
 // The paper's regime: so many pixels and colours that the whole transport does not fit into an
 // image's time.
 #include "protocol/relighting/budget.h"
+#include "protocol/base/timing/stopwatch.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/image_pipeline.h"
 #include "tests/bench/workbench.h"
@@ -30,14 +31,14 @@ void measure(Workbench& workbench, Results& results) {
     test::with_threads(Workbench::thread_counts().back(), [&] {
         ImagePipeline pipeline(scene);
         std::vector<double> latencies_ms;
-        test::Stopwatch drag;
+        timing::Stopwatch drag;
         // The first images warm up: they are written to memory for the first time.
         for (std::size_t image = 0; image < kWarmUp + images; ++image) {
             if (image == kWarmUp) {
                 latencies_ms.clear();
-                drag = test::Stopwatch();
+                drag = timing::Stopwatch();
             }
-            const test::Stopwatch stopwatch;
+            const timing::Stopwatch stopwatch;
             pipeline.turn_light(image);
             pipeline.advance(budget);
             pipeline.begin_encoding();
@@ -50,7 +51,7 @@ void measure(Workbench& workbench, Results& results) {
         const auto rank =
             static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(images)));
         results.set(kKeys[1], latencies_ms[rank - 1]);
-        const test::Stopwatch resting;
+        const timing::Stopwatch resting;
         while (!pipeline.exact()) {
             pipeline.advance(budget);
         }

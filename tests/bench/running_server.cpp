@@ -1,5 +1,6 @@
 #include "tests/bench/running_server.h"
 
+#include "protocol/base/timing/stopwatch.h"
 #include "tests/bench/programs.h"
 #include "tests/support/timing.h"
 
@@ -110,7 +111,7 @@ double RunningServer::cpu_seconds() const {
 
 void RunningServer::wait_until_quiet(double timeout_seconds) const {
     constexpr double kQuiet = 0.01;
-    const test::Stopwatch waiting;
+    const timing::Stopwatch waiting;
     double before = cpu_seconds();
     while (true) {
         std::this_thread::sleep_for(std::chrono::seconds(1));

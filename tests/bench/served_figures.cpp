@@ -1,5 +1,6 @@
 // The whole way: real server, real client, loopback, both on this machine's cores.
 #include "tests/bench/figure_groups.h"
+#include "protocol/base/timing/stopwatch.h"
 #include "tests/bench/running_server.h"
 #include "tests/bench/workbench.h"
 #include "tests/support/timing.h"
@@ -50,7 +51,7 @@ void measure_idle(const RunningServer& server, const Sizes& sizes, Results& resu
     std::this_thread::sleep_for(std::chrono::seconds(1));
     server.wait_until_quiet(kQuietTimeoutSeconds);
     const double before = server.cpu_seconds();
-    const test::Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     std::this_thread::sleep_for(std::chrono::duration<double>(sizes.idle_seconds));
     const double used = server.cpu_seconds() - before;
     results.set("idle_cpu", used / stopwatch.seconds());

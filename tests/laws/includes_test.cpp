@@ -22,6 +22,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
     static const std::map<std::string, std::set<std::string>> allowed{
         {"protocol/base/files", {"protocol/base/text"}},
         {"protocol/base/text", {}},
+        {"protocol/base/timing", {}},
         {"protocol/base/program", {"protocol/base/files", "protocol/base/text"}},
         {"protocol/basis", {}},
         {"protocol/transport", {"protocol/basis"}},

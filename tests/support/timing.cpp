@@ -1,5 +1,7 @@
 #include "tests/support/timing.h"
 
+#include "protocol/base/timing/stopwatch.h"
+
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ std::vector<std::vector<double>> seconds_in_turn(std::span<const TimedVariant> v
     std::vector<std::vector<double>> seconds(variants.size());
     for (std::size_t round = 0; round <= rounds; ++round) {
         for (std::size_t v = 0; v < variants.size(); ++v) {
-            const Stopwatch stopwatch;
+            const timing::Stopwatch stopwatch;
             variants[v](round);
             const double spent = stopwatch.seconds();
             if (round > 0) {

@@ -1,24 +1,12 @@
 // Honest times on a machine that is not ours alone.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
 
 namespace relume::test {
-
-class Stopwatch {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(Clock::now() - start_).count();
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 // What is compared takes turns, A B C A B C …, so that whatever else the machine does hits all
 // alike. Each is called with the number of the round; round 0 warms up and is not counted.

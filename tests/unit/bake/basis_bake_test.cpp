@@ -4,10 +4,9 @@
 #include "precompute/scene/builtin.h"
 #include "protocol/transport/transport.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/unit/bake/relit_pictures.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace relume::bake {
 namespace {
@@ -26,31 +25,6 @@ BakeParameters parameters_of(Kind kind, std::uint32_t order = 0) {
             .pixel_samples = 1};
 }
 
-template <typename Radiance>
-CubemapLight light_from(Radiance radiance) {
-    CubemapLight light;
-    for (std::size_t i = 0; i < basis::texel_count(kN); ++i) {
-        const float value =
-            radiance(basis::direction_from_texel(kN, basis::texel_from_index(kN, i)));
-        for (auto& plane : light) {
-            plane.push_back(value);
-        }
-    }
-    return light;
-}
-
-double relative_l2(const RelitImage& image, const RelitImage& reference) {
-    double difference = 0;
-    double norm = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t p = 0; p < reference.rgb[c].size(); ++p) {
-            difference += std::pow(image.rgb[c][p] - reference.rgb[c][p], 2);
-            norm += std::pow(reference.rgb[c][p], 2);
-        }
-    }
-    return std::sqrt(difference / norm);
-}
-
 class BasisBake : public testing::Test {
   protected:
     std::shared_ptr<const transport::Transport> baked(const char* scene,
@@ -65,7 +39,7 @@ class BasisBake : public testing::Test {
 };
 
 TEST_F(BasisBake, UnoccludedWhiteLambertShowsItsAlbedoUnderConstantLight) {
-    const CubemapLight white = light_from([](const Imath::V3f&) { return 1.0F; });
+    const CubemapLight white = light_from(kN, [](const Imath::V3f&) { return 1.0F; });
     for (const std::uint32_t order : {1U, 5U, 20U}) {
         const auto transport = baked("plane", parameters_of(Kind::spherical_harmonics, order));
         EXPECT_EQ(transport->column_count(), std::size_t{order} * order);
@@ -81,7 +55,7 @@ TEST_F(BasisBake, UnoccludedWhiteLambertShowsItsAlbedoUnderConstantLight) {
 // Indirect light has its share of the furnace too, without bias: what a basis does to noise is
 // another matter.
 TEST_F(BasisBake, BothBasesGiveTheSameInterreflectionUnderConstantLight) {
-    const CubemapLight white = light_from([](const Imath::V3f&) { return 1.0F; });
+    const CubemapLight white = light_from(kN, [](const Imath::V3f&) { return 1.0F; });
     BakeParameters haar = parameters_of(Kind::haar);
     haar.bounces = 3;
     haar.samples = 16;
@@ -95,7 +69,7 @@ TEST_F(BasisBake, BothBasesGiveTheSameInterreflectionUnderConstantLight) {
 // Spherical harmonics and wavelets are two ways to write one transport.
 TEST_F(BasisBake, ConvergesToTheWaveletImageUnderLowFrequencyLight) {
     // A lobe as wide as a clouded sun.
-    const CubemapLight light = light_from([](const Imath::V3f& d) {
+    const CubemapLight light = light_from(kN, [](const Imath::V3f& d) {
         return std::exp(5 * (d.dot(Imath::V3f(0.48F, 0.8F, 0.36F)) - 1));
     });
     const RelitImage reference = relight(*baked("table", parameters_of(Kind::haar)), light);

@@ -8,6 +8,7 @@
 #include "precompute/scene/import.h"
 #include "protocol/transport/transport.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/unit/bake/relit_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -42,33 +43,10 @@ class Framing : public testing::Test {
         return relight(*transport::Transport::open(path), light);
     }
     // Brighter above and to the right, so that turns show.
-    template <typename Radiance>
-    static CubemapLight light_from(Radiance radiance) {
-        CubemapLight light;
-        for (std::size_t i = 0; i < basis::texel_count(kN); ++i) {
-            const float value =
-                radiance(basis::direction_from_texel(kN, basis::texel_from_index(kN, i)));
-            for (auto& plane : light) {
-                plane.push_back(value);
-            }
-        }
-        return light;
-    }
     static CubemapLight slanted_light() {
-        return light_from([](const Imath::V3f& d) {
+        return light_from(kN, [](const Imath::V3f& d) {
             return 1.0F + 0.8F * d.y + 0.5F * d.x + (d.x > 0.5F && d.y > 0.5F ? 4.0F : 0.0F);
         });
-    }
-    static double relative_l2(const RelitImage& image, const RelitImage& reference) {
-        double difference = 0;
-        double norm = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t p = 0; p < reference.rgb[c].size(); ++p) {
-                difference += std::pow(image.rgb[c][p] - reference.rgb[c][p], 2);
-                norm += std::pow(reference.rgb[c][p], 2);
-            }
-        }
-        return std::sqrt(difference / norm);
     }
     // A roof above a floor, as text: every number a double's. `place`: p ↦ offset + size·p.
     scene::Scene hut(double offset, double size, bool as_ply) {
@@ -152,8 +130,8 @@ TEST_F(Framing, ZUpTurnsTheScene) {
     options.up_axis = scene::UpAxis::z;
     options.camera = {.eye = Imath::V3d(0, 0, 4), .look_at = Imath::V3d(0, 0, 0)};
     const scene::Scene scene = scene::import_scene(case_path("47-z-up/floor.ply"), options);
-    const RelitImage image =
-        image_of(scene, light_from([](const Imath::V3f& d) { return d.y > 0 ? 1.0F : 0.0F; }));
+    const RelitImage image = image_of(
+        scene, light_from(kN, [](const Imath::V3f& d) { return d.y > 0 ? 1.0F : 0.0F; }));
     for (const auto& plane : image.rgb) {
         EXPECT_NEAR(plane[12 * 24 + 12], 0.5, 0.01);
     }
