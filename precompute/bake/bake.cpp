@@ -128,8 +128,8 @@ class Bake {
         check_framing(caster_, camera_, parameters);
         manifest_.generator = generator();
         manifest_.fingerprint = fingerprint_of(scene, camera_, parameters, generator());
-        manifest_.image = image_;
-        manifest_.light_basis = light_basis(parameters);
+        manifest_.layout = transport::ReceiverLayout::pixel_tiles(image_);
+        manifest_.signal_basis = signal_basis(parameters);
         manifest_.stating_rows = kStatingRows;
         manifest_.choosing_rows = kChoosingRows;
         manifest_.camera = record_of(camera_, scene.frame);
@@ -210,7 +210,7 @@ class Bake {
         tables.coverage.assign(std::size_t{image_.block_count()} * transport::kBlockSize, 0);
         for (std::uint32_t y = 0; y < image_.height; ++y) {
             for (std::uint32_t x = 0; x < image_.width; ++x) {
-                const transport::Receiver at = image_.receiver_from_pixel(x, y);
+                const transport::ReceiverPlace at = image_.place_from_pixel(x, y);
                 tables.coverage[std::size_t{at.block} * transport::kBlockSize + at.slot] =
                     view.coverage[std::size_t{y} * image_.width + x];
             }

@@ -1,7 +1,7 @@
 #include "precompute/bake/block_encoder.h"
 
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/quantise.h"
-#include "protocol/transport/receiver_basis.h"
 
 #include <cmath>
 

@@ -11,7 +11,7 @@ namespace relume::bake {
 namespace {
 
 void add_bake_options(CLI::App& app, Arguments& arguments) {
-    using Kind = basis::LightBasis::Kind;
+    using Kind = basis::CubemapBasis::Kind;
     const std::map<std::string, Kind> kinds{{"haar", Kind::haar},
                                             {"sh", Kind::spherical_harmonics}};
     const std::map<std::string, scene::UpAxis> up_axes{{"y", scene::UpAxis::y},

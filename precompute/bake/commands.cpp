@@ -166,7 +166,7 @@ int run_bake(const Arguments& arguments) {
         parameters.height = size[1];
     }
     if (arguments.order) {
-        if (parameters.basis != basis::LightBasis::Kind::spherical_harmonics) {
+        if (parameters.basis != basis::CubemapBasis::Kind::spherical_harmonics) {
             throw program::UsageError(
                 fmt::format("--order is {}: wavelets have none, expected --basis sh beside it",
                             *arguments.order));
@@ -244,7 +244,7 @@ int run_relight(const Arguments& arguments) {
     const transport::Manifest& manifest = transport->manifest();
     const RelitImage relit =
         relight(*transport,
-                read_cubemap_strip(arguments.light, manifest.light_basis.face_resolution()));
+                read_cubemap_strip(arguments.light, manifest.signal_basis.face_resolution()));
     FloatImage image{relit.width, relit.height, 4, {}};
     for (std::uint32_t y = 0; y < relit.height; ++y) {
         for (std::uint32_t x = 0; x < relit.width; ++x) {
@@ -252,7 +252,7 @@ int run_relight(const Arguments& arguments) {
                 image.values.push_back(
                     static_cast<float>(plane[std::size_t{y} * relit.width + x]));
             }
-            const transport::Receiver at = manifest.image.receiver_from_pixel(x, y);
+            const transport::ReceiverPlace at = manifest.image().place_from_pixel(x, y);
             image.values.push_back(
                 transport->coverage()[std::size_t{at.block} * transport::kBlockSize + at.slot]);
         }

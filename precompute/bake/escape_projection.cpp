@@ -51,8 +51,8 @@ class BinnedEscapes final : public EscapeProjection {
 
 std::unique_ptr<const EscapeProjection> EscapeProjection::onto(
     std::shared_ptr<const basis::CubemapProjection> projection, float standard_errors) {
-    const basis::LightBasis& basis = projection->basis();
-    if (basis.kind() == basis::LightBasis::Kind::haar) {
+    const basis::CubemapBasis& basis = projection->basis();
+    if (basis.kind() == basis::CubemapBasis::Kind::haar) {
         return std::make_unique<ShrunkEscapes>(standard_errors);
     }
     return std::make_unique<BinnedEscapes>(std::move(projection));

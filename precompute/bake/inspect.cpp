@@ -130,8 +130,8 @@ nlohmann::json describe(const std::filesystem::path& directory) {
     nlohmann::json description{
         {"directory", directory.string()},
         {"generator", manifest.generator},
-        {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
-        {"basis", transport::json_from(manifest.light_basis)},
+        {"image", {{"width", manifest.image().width}, {"height", manifest.image().height}}},
+        {"basis", transport::json_from(manifest.signal_basis)},
         {"columns", transport->column_count()},
         {"colour",
          {{"channels", manifest.colour.channels}, {"matrix", manifest.colour.matrix}}},

@@ -7,7 +7,7 @@
 
 namespace relume::bake {
 
-std::vector<float> natural_light(const basis::LightBasis& basis, std::uint64_t seed) {
+std::vector<float> natural_light(const basis::CubemapBasis& basis, std::uint64_t seed) {
     const std::size_t count = basis.coefficient_count();
     std::vector<float> light(count);
     float constant_energy = 0;

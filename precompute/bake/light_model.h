@@ -18,7 +18,7 @@ inline constexpr float kNaturalFalloff = 0.25F;
 //
 // - Natural: a constant plus noise of equal standard deviation, as far as the basis holds it.
 // - Sun: one texel of the upper half of the world holds all the energy.
-[[nodiscard]] std::vector<float> natural_light(const basis::LightBasis& basis,
+[[nodiscard]] std::vector<float> natural_light(const basis::CubemapBasis& basis,
                                                std::uint64_t seed);
 [[nodiscard]] std::vector<float> sun_light(const basis::CubemapProjection& projection,
                                            std::uint64_t seed);

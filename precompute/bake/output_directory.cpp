@@ -5,7 +5,7 @@
 #include "protocol/base/files/error.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/names.h"
-#include "protocol/transport/format.h"
+#include "protocol/transport/receiver_layout.h"
 
 #include <fmt/format.h>
 
@@ -96,7 +96,7 @@ fs::path transport_directory_from_option(const std::string& text) {
 
 LeastBytes least_bytes(const BakeParameters& parameters) {
     const transport::TileGrid image{.width = parameters.width, .height = parameters.height};
-    const std::uint64_t columns = light_basis(parameters).coefficient_count();
+    const std::uint64_t columns = signal_basis(parameters).coefficient_count();
     const std::uint64_t blocks = image.block_count();
     constexpr std::uint64_t kColours = transport::kColours;
     const std::uint64_t column_table = columns * 4 * (1 + kColours + 1);

@@ -32,7 +32,7 @@ void check_parameters(const BakeParameters& p) {
             "light resolution is {}, expected a power of two from {} to {}", p.face_resolution,
             basis::kMinFaceResolution, basis::kMaxFaceResolution));
     }
-    if (p.basis == basis::LightBasis::Kind::spherical_harmonics) {
+    if (p.basis == basis::CubemapBasis::Kind::spherical_harmonics) {
         require_range("order", p.order, 1U, basis::kMaxShOrder);
     }
     require_range("bounces", p.bounces, 0U, 1000U);
@@ -45,10 +45,10 @@ void check_parameters(const BakeParameters& p) {
     require_range("threads", p.threads, 0U, 1024U);
 }
 
-basis::LightBasis light_basis(const BakeParameters& p) {
-    return p.basis == basis::LightBasis::Kind::haar
-               ? basis::LightBasis::haar(p.face_resolution)
-               : basis::LightBasis::spherical_harmonics(p.order, p.face_resolution);
+basis::CubemapBasis signal_basis(const BakeParameters& p) {
+    return p.basis == basis::CubemapBasis::Kind::haar
+               ? basis::CubemapBasis::haar(p.face_resolution)
+               : basis::CubemapBasis::spherical_harmonics(p.order, p.face_resolution);
 }
 
 nlohmann::json json_from_parameters(const BakeParameters& p) {
@@ -67,7 +67,7 @@ nlohmann::json json_from_parameters(const BakeParameters& p) {
     if (p.up_axis == scene::UpAxis::z) {
         object["up_axis"] = "z";
     }
-    if (p.basis == basis::LightBasis::Kind::spherical_harmonics) {
+    if (p.basis == basis::CubemapBasis::Kind::spherical_harmonics) {
         object["basis"] = transport::name_of(p.basis);
         object["order"] = p.order;
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "precompute/scene/up_axis.h"
-#include "protocol/basis/light_basis.h"
+#include "protocol/basis/cubemap_basis.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,7 +14,7 @@ struct BakeParameters {
     std::uint32_t width = 512;           // pixels
     std::uint32_t height = 512;          // pixels
     std::uint32_t face_resolution = 64;  // n of the 6×n×n lighting cubemap
-    basis::LightBasis::Kind basis = basis::LightBasis::Kind::haar;
+    basis::CubemapBasis::Kind basis = basis::CubemapBasis::Kind::haar;
     std::uint32_t order = 10;          // of spherical harmonics; Haar has none
     std::uint32_t bounces = 1;         // scattering events after the first; 0: direct only
     std::uint32_t samples = 64;        // paths per pixel
@@ -32,7 +32,7 @@ struct BakeParameters {
 void check_parameters(const BakeParameters& parameters);
 
 // What the transport's columns stand for. The parameters have been checked.
-[[nodiscard]] basis::LightBasis light_basis(const BakeParameters& parameters);
+[[nodiscard]] basis::CubemapBasis signal_basis(const BakeParameters& parameters);
 
 // All that changes the result: everything but `threads`.
 [[nodiscard]] nlohmann::json json_from_parameters(const BakeParameters& parameters);

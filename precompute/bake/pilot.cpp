@@ -97,7 +97,7 @@ StepChooser look_at_tiles(const RowBaker& rows,
                           const BakeParameters& parameters) {
     const std::vector<SampleTile> tiles =
         sample_tiles(window, image, kPilotTiles, parameters.seed);
-    StepChooser chooser(light_basis(parameters), tiles.size());
+    StepChooser chooser(signal_basis(parameters), tiles.size());
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(std::size_t{0}, tiles.size() * transport::kBlockSize, [&](std::size_t i) {
         const std::size_t tile = i / transport::kBlockSize;

@@ -4,7 +4,7 @@
 #include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -74,8 +74,8 @@ void to_receivers(std::vector<double>& sums) {
 
 RelitImage relight(const transport::Transport& transport, const CubemapLight& light) {
     const transport::Manifest& manifest = transport.manifest();
-    const auto projection = basis::CubemapProjection::onto(manifest.light_basis);
-    const std::size_t texels = basis::texel_count(manifest.light_basis.face_resolution());
+    const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
+    const std::size_t texels = basis::texel_count(manifest.signal_basis.face_resolution());
     Coefficients coefficients;
     for (std::size_t c = 0; c < light.size(); ++c) {
         if (light[c].size() != texels) {
@@ -90,12 +90,13 @@ RelitImage relight(const transport::Transport& transport, const CubemapLight& li
         add_shard(transport, transport.shards()[i], coefficients, pixels);
     });
     to_receivers(pixels);
-    RelitImage image{.width = manifest.image.width, .height = manifest.image.height, .rgb = {}};
+    RelitImage image{
+        .width = manifest.image().width, .height = manifest.image().height, .rgb = {}};
     for (std::size_t c = 0; c < 3; ++c) {
         image.rgb[c].resize(std::size_t{image.width} * image.height);
         for (std::uint32_t y = 0; y < image.height; ++y) {
             for (std::uint32_t x = 0; x < image.width; ++x) {
-                const transport::Receiver at = manifest.image.receiver_from_pixel(x, y);
+                const transport::ReceiverPlace at = manifest.image().place_from_pixel(x, y);
                 const std::size_t i = (std::size_t{at.block} * 3 + c) * kBlockSize + at.slot;
                 image.rgb[c][std::size_t{y} * image.width + x] =
                     pixels[i] * transport.tint()[i];

@@ -20,7 +20,7 @@ RELUME_CPU_CLONES void scale(std::span<const float> source,
 RowBaker::RowBaker(const RayCaster& caster,
                    const LightTexels& texels,
                    const BakeParameters& parameters)
-    : projection_(basis::CubemapProjection::onto(light_basis(parameters))),
+    : projection_(basis::CubemapProjection::onto(signal_basis(parameters))),
       escapes_(EscapeProjection::onto(projection_, parameters.shrinkage)),
       constant_light_(projection_->basis().constant_light()),
       seed_(parameters.seed),

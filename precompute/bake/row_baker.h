@@ -58,7 +58,7 @@ class RowBaker {
 
     std::shared_ptr<const basis::CubemapProjection> projection_;
     std::unique_ptr<const EscapeProjection> escapes_;
-    std::vector<basis::LightBasis::Term> constant_light_;
+    std::vector<basis::CubemapBasis::Term> constant_light_;
     std::uint64_t seed_;
     DirectLight direct_;
 };

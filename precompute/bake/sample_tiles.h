@@ -2,7 +2,7 @@
 #pragma once
 
 #include "precompute/bake/tile_window.h"
-#include "protocol/transport/format.h"
+#include "protocol/transport/receiver_layout.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -102,7 +102,7 @@ void ShardBaker::bake_pixel(std::uint32_t x,
     rows_.bake(pixel, x, y, &pool_, scratch.row, scratch.rows);
     const transport::ColourModel& colour = quantisation_.colour;
     split_colours(colour, scratch.row, scratch.channels);
-    const std::uint32_t slot = image_.receiver_from_pixel(x, y).slot;
+    const std::uint32_t slot = image_.place_from_pixel(x, y).slot;
     for (std::size_t c = 0; c < transport::kColours; ++c) {
         block.tint[c * transport::kBlockSize + slot] =
             scratch.channels.tint[static_cast<int>(c)];

@@ -1,8 +1,8 @@
 #include "precompute/bake/step_chooser.h"
 
 #include "precompute/bake/light_model.h"
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/quantise.h"
-#include "protocol/transport/receiver_basis.h"
 
 #include <tbb/parallel_for.h>
 
@@ -42,7 +42,7 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(const basis::LightBasis& basis, std::size_t tiles)
+StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t tiles)
     : basis_(basis), tiles_(tiles) {
     const std::size_t count = basis.coefficient_count();
     std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());

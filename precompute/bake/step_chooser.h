@@ -8,7 +8,7 @@
 // too.
 #pragma once
 
-#include "protocol/basis/light_basis.h"
+#include "protocol/basis/cubemap_basis.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/manifest.h"
 
@@ -22,7 +22,7 @@ namespace relume::bake {
 class StepChooser {
   public:
     // Keeps some columns of every band.
-    StepChooser(const basis::LightBasis& basis, std::size_t tiles);
+    StepChooser(const basis::CubemapBasis& basis, std::size_t tiles);
 
     // The row of a receiver, N values; receivers never set are zero. Thread-safe for different
     // receivers.
@@ -51,7 +51,7 @@ class StepChooser {
     template <typename Step>
     [[nodiscard]] SquaredErrors errors(Step step) const;
 
-    basis::LightBasis basis_;
+    basis::CubemapBasis basis_;
     std::size_t tiles_;
     std::vector<Column> columns_;
     std::vector<Cell> cells_;  // [columns][tiles]

@@ -1,7 +1,7 @@
 #include "precompute/bake/tile_window.h"
 
 #include "protocol/base/program/usage.h"
-#include "protocol/transport/format.h"
+#include "protocol/transport/receiver_layout.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range2d.h>

@@ -54,7 +54,7 @@ void write_pictures(const std::filesystem::path& directory, const ViewImages& vi
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
     const RelitImage relit = relight(
-        *transport, thumbnail_light(manifest.light_basis.face_resolution(), manifest.camera));
+        *transport, thumbnail_light(manifest.signal_basis.face_resolution(), manifest.camera));
     constexpr float kBackdrop = 0.12F;
     std::vector<float> pixels;
     for (std::size_t i = 0; i < view.coverage.size(); ++i) {

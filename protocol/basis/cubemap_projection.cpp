@@ -10,7 +10,7 @@ namespace {
 
 class HaarProjection final : public CubemapProjection {
   public:
-    explicit HaarProjection(const LightBasis& basis) : CubemapProjection(basis) {}
+    explicit HaarProjection(const CubemapBasis& basis) : CubemapProjection(basis) {}
 
     void project_radiance(std::span<const float> texels,
                           std::span<float> coefficients) const override {
@@ -30,8 +30,8 @@ class HaarProjection final : public CubemapProjection {
 
 }  // namespace
 
-std::shared_ptr<const CubemapProjection> CubemapProjection::onto(const LightBasis& basis) {
-    if (basis.kind() == LightBasis::Kind::haar) {
+std::shared_ptr<const CubemapProjection> CubemapProjection::onto(const CubemapBasis& basis) {
+    if (basis.kind() == CubemapBasis::Kind::haar) {
         return std::make_shared<const HaarProjection>(basis);
     }
     return std::make_shared<const ShProjection>(basis);

@@ -7,7 +7,7 @@
 // transform of haar.h, whose functions are orthonormal over texels instead of over the sphere.
 #pragma once
 
-#include "protocol/basis/light_basis.h"
+#include "protocol/basis/cubemap_basis.h"
 
 #include <memory>
 #include <span>
@@ -18,13 +18,14 @@ namespace relume::basis {
 // coefficients as many as the basis has; input and output do not overlap.
 class CubemapProjection {
   public:
-    [[nodiscard]] static std::shared_ptr<const CubemapProjection> onto(const LightBasis& basis);
+    [[nodiscard]] static std::shared_ptr<const CubemapProjection> onto(
+        const CubemapBasis& basis);
 
     virtual ~CubemapProjection() = default;
     CubemapProjection(const CubemapProjection&) = delete;
     CubemapProjection& operator=(const CubemapProjection&) = delete;
 
-    [[nodiscard]] const LightBasis& basis() const { return basis_; }
+    [[nodiscard]] const CubemapBasis& basis() const { return basis_; }
 
     // Mean radiance of every texel to lighting coefficients.
     virtual void project_radiance(std::span<const float> texels,
@@ -37,10 +38,10 @@ class CubemapProjection {
                                       std::span<float> texels) const = 0;
 
   protected:
-    explicit CubemapProjection(const LightBasis& basis) : basis_(basis) {}
+    explicit CubemapProjection(const CubemapBasis& basis) : basis_(basis) {}
 
   private:
-    LightBasis basis_;
+    CubemapBasis basis_;
 };
 
 }  // namespace relume::basis

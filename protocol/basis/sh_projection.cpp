@@ -33,7 +33,7 @@ struct Rule {
 };
 
 // Means of all functions over a texel.
-std::vector<double> means_over_texel(const LightBasis& basis,
+std::vector<double> means_over_texel(const CubemapBasis& basis,
                                      const Texel& texel,
                                      const Rule& rule) {
     std::vector<double> values(basis.coefficient_count());
@@ -90,7 +90,7 @@ RELUME_CPU_CLONES void add_scaled(std::span<const float> source,
 
 }  // namespace
 
-ShProjection::ShProjection(const LightBasis& harmonics)
+ShProjection::ShProjection(const CubemapBasis& harmonics)
     : CubemapProjection(harmonics), by_parity_(harmonics.coefficient_count()) {
     std::iota(by_parity_.begin(), by_parity_.end(), 0U);
     std::stable_sort(

@@ -18,7 +18,7 @@ namespace relume::basis {
 class ShProjection final : public CubemapProjection {
   public:
     // `basis` is of spherical harmonics.
-    explicit ShProjection(const LightBasis& basis);
+    explicit ShProjection(const CubemapBasis& basis);
 
     void project_radiance(std::span<const float> texels,
                           std::span<float> coefficients) const override;

@@ -1,7 +1,7 @@
 #include "protocol/transport/column_summary.h"
 
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/error.h"
-#include "protocol/transport/receiver_basis.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

@@ -69,29 +69,4 @@ inline constexpr std::int32_t kPartBase = 256;
 inline constexpr std::size_t kStripSlots = 8;
 inline constexpr std::size_t kStripsPerBlock = kBlockSize / kStripSlots;
 
-// Where a pixel lives.
-struct Receiver {
-    std::uint32_t block = 0;
-    std::uint32_t slot = 0;
-};
-
-// Tiles of an image, row by row from the top left.
-struct TileGrid {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-
-    [[nodiscard]] constexpr std::uint32_t tiles_x() const {
-        return (width + kTileSide - 1) / kTileSide;
-    }
-    [[nodiscard]] constexpr std::uint32_t tiles_y() const {
-        return (height + kTileSide - 1) / kTileSide;
-    }
-    [[nodiscard]] constexpr std::uint32_t block_count() const { return tiles_x() * tiles_y(); }
-    [[nodiscard]] constexpr Receiver receiver_from_pixel(std::uint32_t x,
-                                                         std::uint32_t y) const {
-        return {.block = (y / kTileSide) * tiles_x() + x / kTileSide,
-                .slot = (y % kTileSide) * kTileSide + x % kTileSide};
-    }
-};
-
 }  // namespace relume::transport

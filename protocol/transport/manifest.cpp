@@ -16,7 +16,7 @@ namespace relume::transport {
 namespace {
 
 using nlohmann::json;
-using Kind = basis::LightBasis::Kind;
+using BasisKind = basis::CubemapBasis::Kind;
 
 // A name that means one file within the directory to every program: its parts are neither empty
 // nor "." nor "..", and no byte of it is a control character.
@@ -45,10 +45,6 @@ std::string file_name(const ManifestReader& record) {
     return name;
 }
 
-json json_from(const Imath::V3f& v) {
-    return json::array({v.x, v.y, v.z});
-}
-
 json json_from(const FileRecord& record) {
     return {{"file", record.file},
             {"bytes", record.bytes},
@@ -61,103 +57,21 @@ FileRecord file_record(const ManifestReader& record) {
             .checksum = record.digits("xxh3")};
 }
 
-json json_from(const ColourModel& colour) {
-    json matrix = json::array();
-    for (const auto& row : colour.matrix) {
-        matrix.push_back(std::vector<float>(row.begin(), row.begin() + colour.channels));
-    }
-    return {{"channels", colour.channels}, {"matrix", matrix}};
-}
-
-ColourModel colour_model(const ManifestReader& object) {
-    ColourModel colour;
-    colour.channels = object.integer32("channels", 1, kMaxChannels);
-    if (colour.channels == 2) {
-        object.fail("channels", "2", "1 or 3");
-    }
-    const json& matrix = object.member("matrix");
-    const bool shaped = matrix.is_array() && matrix.size() == kColours &&
-                        std::all_of(matrix.begin(), matrix.end(), [&](const json& row) {
-                            return row.is_array() && row.size() == colour.channels &&
-                                   std::all_of(row.begin(), row.end(), [](const json& value) {
-                                       return is_single(value);
-                                   });
-                        });
-    if (!shaped) {
-        object.fail("matrix", text::quote(matrix),
-                    fmt::format("3 rows of {} numbers", colour.channels));
-    }
-    for (std::size_t c = 0; c < kColours; ++c) {
-        for (std::size_t k = 0; k < colour.channels; ++k) {
-            colour.matrix[c][k] = matrix[c][k].get<float>();
-        }
-    }
-    return colour;
-}
-
-basis::LightBasis light_basis(const ManifestReader& object) {
+basis::CubemapBasis signal_basis(const ManifestReader& object) {
     const std::string name = object.string("name");
     const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
                                              basis::kMaxFaceResolution);
     if (!basis::is_face_resolution(n)) {
         object.fail("face_resolution", std::to_string(n), "a power of two from 4 to 256");
     }
-    if (name == name_of(Kind::haar)) {
-        return basis::LightBasis::haar(n);
+    if (name == name_of(BasisKind::haar)) {
+        return basis::CubemapBasis::haar(n);
     }
-    if (name == name_of(Kind::spherical_harmonics)) {
-        return basis::LightBasis::spherical_harmonics(
+    if (name == name_of(BasisKind::spherical_harmonics)) {
+        return basis::CubemapBasis::spherical_harmonics(
             object.integer32("order", 1, basis::kMaxShOrder), n);
     }
     object.fail("name", text::quote(name), "haar or sh");
-}
-
-json json_from(const CameraRecord& camera) {
-    return {{"eye", json_from(camera.eye)},
-            {"right", json_from(camera.right)},
-            {"up", json_from(camera.up)},
-            {"forward", json_from(camera.forward)},
-            {"tan_half_width", camera.tan_half_width},
-            {"tan_half_height", camera.tan_half_height}};
-}
-
-// Axes of single precision; what rounding leaves of right angles and unit lengths is far below.
-constexpr float kAxisTolerance = 1e-3F;
-
-void require_orthonormal(const ManifestReader& object, const CameraRecord& camera) {
-    const std::array<std::pair<const char*, Imath::V3f>, 3> axes{
-        {{"right", camera.right}, {"up", camera.up}, {"forward", camera.forward}}};
-    for (const auto& [name, axis] : axes) {
-        if (!(std::abs(axis.length() - 1) <= kAxisTolerance)) {
-            object.fail(name, fmt::format("a vector of length {}", axis.length()),
-                        "a unit vector");
-        }
-    }
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        const auto& [name, axis] = axes[i];
-        const auto& [other_name, other] = axes[(i + 1) % axes.size()];
-        if (!(std::abs(axis.dot(other)) <= kAxisTolerance)) {
-            object.fail(name, fmt::format("{}·{} = {}", name, other_name, axis.dot(other)),
-                        "axes at right angles");
-        }
-    }
-    for (const auto& [name, tangent] : {std::pair{"tan_half_width", camera.tan_half_width},
-                                        std::pair{"tan_half_height", camera.tan_half_height}}) {
-        if (!(tangent > 0)) {
-            object.fail(name, fmt::format("{}", tangent), "a positive number");
-        }
-    }
-}
-
-CameraRecord camera_record(const ManifestReader& object) {
-    const CameraRecord camera{.eye = object.vector("eye"),
-                              .right = object.vector("right"),
-                              .up = object.vector("up"),
-                              .forward = object.vector("forward"),
-                              .tan_half_width = object.number("tan_half_width"),
-                              .tan_half_height = object.number("tan_half_height")};
-    require_orthonormal(object, camera);
-    return camera;
 }
 
 json json_from(const ShardRecord& shard) {
@@ -220,13 +134,13 @@ void check_first_line(std::string_view text, std::string_view file) {
 
 }  // namespace
 
-std::string_view name_of(Kind kind) {
-    return kind == Kind::haar ? "haar" : "sh";
+std::string_view name_of(BasisKind kind) {
+    return kind == BasisKind::haar ? "haar" : "sh";
 }
 
-json json_from(const basis::LightBasis& basis) {
+json json_from(const basis::CubemapBasis& basis) {
     json object{{"name", name_of(basis.kind())}, {"face_resolution", basis.face_resolution()}};
-    if (basis.kind() == Kind::spherical_harmonics) {
+    if (basis.kind() == BasisKind::spherical_harmonics) {
         object["order"] = basis.order();
     }
     return object;
@@ -234,12 +148,6 @@ json json_from(const basis::LightBasis& basis) {
 
 json json_from(const std::optional<SamplingError>& error) {
     return error ? json{{"natural", error->natural}, {"sun", error->sun}} : json();
-}
-
-Imath::V3f CameraRecord::direction_from_pixel(float x, float y, const TileGrid& image) const {
-    const float right_amount = (2 * x / static_cast<float>(image.width) - 1) * tan_half_width;
-    const float up_amount = (1 - 2 * y / static_cast<float>(image.height)) * tan_half_height;
-    return (forward + right * right_amount + up * up_amount).normalized();
 }
 
 std::string text_from_manifest(const Manifest& manifest) {
@@ -250,11 +158,11 @@ std::string text_from_manifest(const Manifest& manifest) {
     json object{
         {"format", "relume-transport"},
         {"version", kFormatVersion},
-        {"kind", kKind},
+        {"kind", kKindNames.name(manifest.kind)},
         {"generator", manifest.generator},
         {"fingerprint", text_from_checksum(manifest.fingerprint)},
-        {"image", {{"width", manifest.image.width}, {"height", manifest.image.height}}},
-        {"basis", json_from(manifest.light_basis)},
+        {"image", {{"width", manifest.image().width}, {"height", manifest.image().height}}},
+        {"basis", json_from(manifest.signal_basis)},
         {"colour", json_from(manifest.colour)},
         {"blocks", manifest.block_count()},
         {"sketch",
@@ -289,14 +197,19 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     const ManifestReader top(parsed, std::string(file) + ": manifest");
     top.expect_text("format", "relume-transport");
     top.expect_integer("version", kFormatVersion);
-    top.expect_text("kind", kKind);
+    const auto kind = kKindNames.value(top.string("kind"));
+    if (!kind) {
+        top.fail("kind", text::quote(top.string("kind")), kKindNames.alternatives());
+    }
 
     Manifest manifest;
+    manifest.kind = *kind;
     manifest.generator = top.string("generator");
     manifest.fingerprint = top.digits("fingerprint");
-    manifest.image = {.width = top.object("image").integer32("width", 1, kMaxImageSide),
-                      .height = top.object("image").integer32("height", 1, kMaxImageSide)};
-    manifest.light_basis = light_basis(top.object("basis"));
+    manifest.layout = ReceiverLayout::pixel_tiles(
+        {.width = top.object("image").integer32("width", 1, kMaxImageSide),
+         .height = top.object("image").integer32("height", 1, kMaxImageSide)});
+    manifest.signal_basis = signal_basis(top.object("basis"));
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
     const ManifestReader sketch = top.object("sketch");

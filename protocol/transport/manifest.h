@@ -1,8 +1,13 @@
 // manifest.json: what a transport directory is, and the length and checksum of all it holds.
 #pragma once
 
-#include "protocol/basis/light_basis.h"
+#include "protocol/base/text/name_table.h"
+#include "protocol/basis/cubemap_basis.h"
+#include "protocol/transport/block_basis.h"
+#include "protocol/transport/camera_record.h"
+#include "protocol/transport/colour_model.h"
 #include "protocol/transport/format.h"
+#include "protocol/transport/receiver_layout.h"
 
 #include <Imath/ImathVec.h>
 #include <nlohmann/json.hpp>
@@ -17,12 +22,18 @@
 
 namespace relume::transport {
 
-// What the transport takes to what: light to the pixels of one camera.
-inline constexpr std::string_view kKind = "image";
+// What a transport takes its signal to, and so which sections its manifest has.
+//   image   light to the pixels of one camera: sections image, basis, camera; blocks are pixel
+//           tiles in their Haar basis, and an image has one term
+enum class Kind : std::uint8_t { image };
+
+inline constexpr text::NameTable<Kind, 1> kKindNames({{
+    {Kind::image, "image"},
+}});
 
 // As the manifest and people name a basis: "haar", "sh".
-[[nodiscard]] std::string_view name_of(basis::LightBasis::Kind kind);
-[[nodiscard]] nlohmann::json json_from(const basis::LightBasis& basis);
+[[nodiscard]] std::string_view name_of(basis::CubemapBasis::Kind kind);
+[[nodiscard]] nlohmann::json json_from(const basis::CubemapBasis& basis);
 
 struct FileRecord {
     std::string file;
@@ -36,29 +47,6 @@ struct ShardRecord {
     std::uint64_t header_checksum = 0;
     std::uint32_t first_block = 0;
     std::uint32_t block_count = 0;
-};
-
-// Pinhole camera; right, up and forward are orthonormal.
-struct CameraRecord {
-    Imath::V3f eye{0, 0, 0};
-    Imath::V3f right{1, 0, 0};
-    Imath::V3f up{0, 1, 0};
-    Imath::V3f forward{0, 0, -1};
-    float tan_half_width = 1;
-    float tan_half_height = 1;
-
-    // Unit direction through the image point (x, y) in pixels, the first pixel's centre being
-    // (0.5, 0.5), of an image of width×height.
-    [[nodiscard]] Imath::V3f direction_from_pixel(float x,
-                                                  float y,
-                                                  const TileGrid& image) const;
-};
-
-// Colours from stored channels: colour c = Σ_k matrix[c][k]·channel k. Rows beyond `channels`
-// are unused and zero.
-struct ColourModel {
-    std::uint32_t channels = 1;
-    std::array<std::array<float, kMaxChannels>, kColours> matrix{};
 };
 
 // Relative L2 error that the bake's sampling leaves in an image, over the pixels that see the
@@ -76,8 +64,10 @@ struct SamplingError {
 struct Manifest {
     std::string generator;
     std::uint64_t fingerprint = 0;
-    TileGrid image;
-    basis::LightBasis light_basis;
+    Kind kind = Kind::image;
+    ReceiverLayout layout;
+    BlockBasis block_basis = BlockBasis::haar_tile;
+    basis::CubemapBasis signal_basis;
     ColourModel colour;
     std::uint32_t stating_rows = 0;   // of the sketch that states errors
     std::uint32_t choosing_rows = 0;  // of the sketch by which a server chooses what to do
@@ -92,9 +82,11 @@ struct Manifest {
 
     // Coefficients of the basis, N.
     [[nodiscard]] std::uint32_t column_count() const {
-        return static_cast<std::uint32_t>(light_basis.coefficient_count());
+        return static_cast<std::uint32_t>(signal_basis.coefficient_count());
     }
-    [[nodiscard]] std::uint32_t block_count() const { return image.block_count(); }
+    [[nodiscard]] std::uint32_t block_count() const { return layout.block_count(); }
+    // Of kind image: its pixels.
+    [[nodiscard]] const TileGrid& image() const { return layout.tiles(); }
 };
 
 // Longest manifest read: 16384² pixels have 16384 shards of about 170 bytes of text each.

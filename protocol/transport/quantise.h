@@ -4,7 +4,7 @@
 // equal error, steps half as large with a zone of 1.6 leave 13 % fewer values than rounding
 // with one of 0.6 (README).
 //
-// Nothing is dithered: values are coefficients of a block (receiver_basis.h), whose errors
+// Nothing is dithered: values are coefficients of a block (block_basis.h), whose errors
 // spread over the block as they are, and random rounding would double their energy.
 #pragma once
 

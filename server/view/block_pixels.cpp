@@ -2,7 +2,7 @@
 #define HWY_TARGET_INCLUDE "server/view/block_pixels.cpp"
 #include "server/view/block_pixels.h"
 
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 #include "server/engine/kernels/target.h"
 
 #include <hwy/foreach_target.h>  // must come before highway.h

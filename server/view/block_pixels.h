@@ -16,7 +16,7 @@ struct BlockPixels {
     std::uint32_t rows;
 };
 
-// Pixels are the receivers of sums [3][256] (protocol/transport/receiver_basis.h) times tint
+// Pixels are the receivers of sums [3][256] (protocol/transport/block_basis.h) times tint
 // [3][256], in that order of operations: the same bits on every instruction set as
 // transport::block_receivers_from_coefficients and a multiplication.
 void write_block_pixels(const float* sums, const float* tint, const BlockPixels& pixels);

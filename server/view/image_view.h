@@ -26,14 +26,14 @@ struct PixelRect {
 [[nodiscard]] PixelRect pixels_of(const transport::TileGrid& image, const TileRun& tiles);
 
 // Receivers are pixels, a block a tile of 16×16 whose sums are in the basis of the block and
-// before tint (protocol/transport/receiver_basis.h): [blocks][3][256]. Immutable; safe to share
+// before tint (protocol/transport/block_basis.h): [blocks][3][256]. Immutable; safe to share
 // between threads.
 class ImageView {
   public:
     explicit ImageView(std::shared_ptr<const transport::Transport> transport);
 
     [[nodiscard]] const transport::TileGrid& image() const {
-        return transport_->manifest().image;
+        return transport_->manifest().image();
     }
     [[nodiscard]] const transport::CameraRecord& camera() const {
         return transport_->manifest().camera;

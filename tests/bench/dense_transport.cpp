@@ -37,8 +37,9 @@ void write_dense_transport(const std::filesystem::path& directory,
                            const DenseTransportSize& size) {
     transport::Manifest manifest;
     manifest.generator = "relume-bench";
-    manifest.image = {.width = size.width, .height = size.height};
-    manifest.light_basis = basis::LightBasis::haar(size.face_resolution);
+    manifest.layout =
+        transport::ReceiverLayout::pixel_tiles({.width = size.width, .height = size.height});
+    manifest.signal_basis = basis::CubemapBasis::haar(size.face_resolution);
     manifest.stating_rows = transport::kMinSketchRows;
     manifest.choosing_rows = transport::kMinSketchRows;
     manifest.colour.matrix = {{{1}, {1}, {1}}};

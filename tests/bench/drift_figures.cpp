@@ -34,7 +34,7 @@ std::vector<float> lamp_lighting(std::uint32_t face_resolution) {
     light::evaluate(rig, face_resolution, cubemap);
     std::vector<float> coefficients;
     const auto projection =
-        basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution));
+        basis::CubemapProjection::onto(basis::CubemapBasis::haar(face_resolution));
     light::lighting_coefficients(cubemap, *projection, coefficients);
     return coefficients;
 }

@@ -110,7 +110,7 @@ std::uint32_t middle_of(std::uint32_t i, std::uint32_t parts, std::uint32_t whol
 
 TestLights::TestLights(std::uint32_t face_resolution) {
     const auto projection =
-        basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution));
+        basis::CubemapProjection::onto(basis::CubemapBasis::haar(face_resolution));
     for (std::size_t i = 0; i < kPerKind; ++i) {
         coefficients[i] = bake::natural_light(projection->basis(), i);
         coefficients[kPerKind + i] = bake::sun_light(*projection, i);

@@ -50,7 +50,7 @@ std::vector<std::uint32_t> most_important(const served::Scene& scene,
 }  // namespace
 
 LightDrag::LightDrag(std::uint32_t face_resolution)
-    : projection_(basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution))),
+    : projection_(basis::CubemapProjection::onto(basis::CubemapBasis::haar(face_resolution))),
       environment_(std::make_shared<const light::PrefilteredEnvironment>(
           std::make_shared<const light::EnvironmentMap>(
               light::procedural_environment("sky-afternoon")),

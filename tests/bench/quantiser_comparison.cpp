@@ -1,7 +1,7 @@
 #include "tests/bench/quantiser_comparison.h"
 
 #include "precompute/bake/block_encoder.h"
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 #include "tests/bench/sparse_columns.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "tests/bench/sparse_columns.h"
 
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 
 #include <tbb/parallel_for.h>
 

@@ -19,7 +19,7 @@ namespace relume::bench {
 enum class PeerBasis {
     // One row per pixel, as [Ng03] and whoever has a sparse matrix store the transport.
     pixels,
-    // One row per coefficient of a block (receiver_basis.h): the integers of the engine's own
+    // One row per coefficient of a block (block_basis.h): the integers of the engine's own
     // cells. Most of what is not zero by pixel vanishes in them.
     ours,
 };

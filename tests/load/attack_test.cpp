@@ -50,7 +50,7 @@ class AttackTest : public testing::Test {
         write_tiny_transport(scenes() / "work.relume", {.width = 64, .height = 48});
         write_tiny_transport(
             scenes() / "large.relume",
-            {.width = 256, .height = 256, .light_basis = basis::LightBasis::haar(16)});
+            {.width = 256, .height = 256, .signal_basis = basis::CubemapBasis::haar(16)});
     }
     static void TearDownTestSuite() { scratch_.reset(); }
 

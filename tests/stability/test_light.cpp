@@ -12,7 +12,7 @@ namespace relume::stability {
 
 Lighting lighting_from_cubemap(const light::LightCubemap& cubemap) {
     const auto haar =
-        basis::CubemapProjection::onto(basis::LightBasis::haar(cubemap.face_resolution));
+        basis::CubemapProjection::onto(basis::CubemapBasis::haar(cubemap.face_resolution));
     Lighting lighting;
     light::lighting_coefficients(cubemap, *haar, lighting);
     return lighting;

@@ -12,8 +12,8 @@ namespace relume::test {
 LinearImage dense_product(const transport::Transport& transport,
                           const std::vector<Imath::V3f>& light) {
     const transport::Manifest& manifest = transport.manifest();
-    const auto projection = basis::CubemapProjection::onto(manifest.light_basis);
-    if (light.size() != basis::texel_count(manifest.light_basis.face_resolution()))
+    const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
+    if (light.size() != basis::texel_count(manifest.signal_basis.face_resolution()))
         throw std::invalid_argument("the light has other texels than the transport");
     std::vector<float> plane(light.size());
     std::vector<std::vector<float>> coefficients(3,
@@ -59,8 +59,8 @@ LinearImage dense_product(const transport::Transport& transport,
             receivers[p][static_cast<int>(c)] = sums[p];
     }
 
-    const std::uint32_t width = manifest.image.width;
-    const std::uint32_t height = manifest.image.height;
+    const std::uint32_t width = manifest.image().width;
+    const std::uint32_t height = manifest.image().height;
     LinearImage image{width, height, {}};
     const std::uint32_t tiles_x = (width + 15) / 16;
     for (std::uint32_t y = 0; y < height; ++y) {

@@ -12,7 +12,7 @@ namespace relume::test {
 
 // Planar [3][N] coefficients of a dim, smooth sky with a few bright texels, as real lighting
 // is: a heavy tail in every band.
-inline std::vector<float> random_lighting(const basis::LightBasis& basis,
+inline std::vector<float> random_lighting(const basis::CubemapBasis& basis,
                                           std::uint64_t seed,
                                           float sun = 300) {
     const std::uint32_t n = basis.face_resolution();
@@ -46,7 +46,7 @@ inline std::vector<float> random_lighting(const basis::LightBasis& basis,
 inline std::vector<float> random_lighting(std::uint32_t n,
                                           std::uint64_t seed,
                                           float sun = 300) {
-    return random_lighting(basis::LightBasis::haar(n), seed, sun);
+    return random_lighting(basis::CubemapBasis::haar(n), seed, sun);
 }
 
 }  // namespace relume::test

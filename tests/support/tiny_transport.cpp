@@ -34,8 +34,9 @@ transport::Manifest tiny_manifest(const TinyTransportOptions& options) {
     transport::Manifest manifest;
     manifest.generator = "relume tests";
     manifest.fingerprint = options.seed;
-    manifest.image = {.width = options.width, .height = options.height};
-    manifest.light_basis = options.light_basis;
+    manifest.layout = transport::ReceiverLayout::pixel_tiles(
+        {.width = options.width, .height = options.height});
+    manifest.signal_basis = options.signal_basis;
     manifest.stating_rows = 256;
     manifest.choosing_rows = 64;
     manifest.colour.channels = options.channels;
@@ -52,7 +53,7 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
     transport::BakedTables tables;
     const std::uint32_t channels = manifest.colour.channels;
     for (std::size_t j = 0; j < manifest.column_count(); ++j) {
-        const auto band = manifest.light_basis.band_from_coefficient(j);
+        const auto band = manifest.signal_basis.band_from_coefficient(j);
         for (std::uint32_t k = 0; k < channels; ++k) {
             tables.steps.push_back(std::ldexp(1e-4F, -static_cast<int>(band + k)));
         }
@@ -61,11 +62,11 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
     std::uniform_real_distribution<float> tint(0.2F, 1);
     tables.coverage.assign(receivers, 0);
     tables.tint.assign(receivers * kColours, 0);
-    for (std::uint32_t y = 0; y < manifest.image.height; ++y) {
-        for (std::uint32_t x = 0; x < manifest.image.width; ++x) {
-            const auto [block, slot] = manifest.image.receiver_from_pixel(x, y);
+    for (std::uint32_t y = 0; y < manifest.image().height; ++y) {
+        for (std::uint32_t x = 0; x < manifest.image().width; ++x) {
+            const auto [block, slot] = manifest.image().place_from_pixel(x, y);
             tables.coverage[block * kBlockSize + slot] =
-                y * 4 < manifest.image.height ? 0.5F : 1;
+                y * 4 < manifest.image().height ? 0.5F : 1;
             for (std::size_t c = 0; c < kColours; ++c) {
                 tables.tint[(block * kColours + c) * kBlockSize + slot] = tint(random);
             }

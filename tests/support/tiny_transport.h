@@ -14,7 +14,7 @@ namespace relume::test {
 struct TinyTransportOptions {
     std::uint32_t width = 40;  // not a multiple of a tile, so that edges are ragged
     std::uint32_t height = 24;
-    basis::LightBasis light_basis = basis::LightBasis::haar(8);
+    basis::CubemapBasis signal_basis = basis::CubemapBasis::haar(8);
     std::uint32_t channels = 1;  // 1 or 3
     std::uint32_t blocks_per_shard = 3;
     std::uint64_t seed = 1;

@@ -40,9 +40,9 @@ class NameTable {
         }
         return words;
     }
-    // "one of a, b, c", for error messages.
+    // "one of a, b, c", for error messages; "a" where there is no other.
     [[nodiscard]] std::string alternatives() const {
-        std::string text = "one of ";
+        std::string text = Count == 1 ? "" : "one of ";
         for (std::size_t i = 0; i < Count; ++i) {
             text.append(i == 0 ? "" : ", ").append(entries_[i].second);
         }

@@ -8,7 +8,7 @@ namespace relume::engine {
 namespace {
 
 ColumnTable::Columns columns_of(const transport::Transport& transport) {
-    return {.bands = transport.manifest().light_basis.bands(),
+    return {.bands = transport.manifest().signal_basis.bands(),
             .energies = transport.energies(),
             .bytes = transport.column_bytes(),
             .stating = transport.stating_sketch(),

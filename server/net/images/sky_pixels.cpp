@@ -3,7 +3,7 @@
 namespace relume::net {
 
 SkyPixels::SkyPixels(const transport::Transport& transport) {
-    const transport::TileGrid& image = transport.manifest().image;
+    const transport::TileGrid& image = transport.manifest().image();
     const transport::CameraRecord& camera = transport.manifest().camera;
     const std::span<const float> coverage_of_slot = transport.coverage();
     const float plane_area_of_pixel = 4 * camera.tan_half_width * camera.tan_half_height /
@@ -13,7 +13,7 @@ SkyPixels::SkyPixels(const transport::Transport& transport) {
     for (std::uint32_t y = 0; y < image.height; ++y) {
         row_begins_.push_back(runs_.size());
         for (std::uint32_t x = 0; x < image.width; ++x) {
-            const transport::Receiver receiver = image.receiver_from_pixel(x, y);
+            const transport::ReceiverPlace receiver = image.place_from_pixel(x, y);
             const float coverage =
                 coverage_of_slot[std::size_t{receiver.block} * transport::kBlockSize +
                                  receiver.slot];

@@ -17,11 +17,11 @@ namespace relume::net {
 namespace fs = std::filesystem;
 
 wire::SceneSummary ServedScene::summary() const {
-    const basis::LightBasis& basis = scene->projection().basis();
-    const bool is_haar = basis.kind() == basis::LightBasis::Kind::haar;
+    const basis::CubemapBasis& basis = scene->projection().basis();
+    const bool is_haar = basis.kind() == basis::CubemapBasis::Kind::haar;
     const auto& sampling = scene->transport().manifest().sampling_error;
     return {.name = name,
-            .kind = std::string(transport::kKind),
+            .kind = std::string(transport::kKindNames.name(scene->transport().manifest().kind)),
             .width = scene->view().image().width,
             .height = scene->view().image().height,
             .basis = std::string(transport::name_of(basis.kind())),

@@ -64,7 +64,7 @@ std::vector<ReferenceLight> environment_lights(const std::vector<std::string>& n
 
 std::vector<ReferenceLight> model_lights(std::uint32_t face_resolution) {
     const auto projection =
-        basis::CubemapProjection::onto(basis::LightBasis::haar(face_resolution));
+        basis::CubemapProjection::onto(basis::CubemapBasis::haar(face_resolution));
     std::vector<ReferenceLight> lights;
     for (std::size_t i = 0; i < kModelLights; ++i) {
         lights.push_back(grey_light(fmt::format("natural-{}", i),

@@ -15,7 +15,7 @@
 namespace relume::lab {
 namespace {
 
-using Kind = basis::LightBasis::Kind;
+using Kind = basis::CubemapBasis::Kind;
 
 // The lab's scene as it was baked in spherical harmonics of `order` or more.
 std::shared_ptr<const served::Scene> sh_scene(const LabScene& scene, std::uint32_t order) {
@@ -26,7 +26,7 @@ std::shared_ptr<const served::Scene> sh_scene(const LabScene& scene, std::uint32
     }
     auto baked =
         std::make_shared<const served::Scene>(transport::Transport::open(scene.sh_transport));
-    const basis::LightBasis& found = baked->projection().basis();
+    const basis::CubemapBasis& found = baked->projection().basis();
     if (found.kind() != Kind::spherical_harmonics || found.order() < order) {
         throw std::runtime_error(fmt::format(
             "{}: basis {}, expected spherical harmonics of order {} or more",

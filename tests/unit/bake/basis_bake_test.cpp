@@ -11,7 +11,7 @@
 namespace relume::bake {
 namespace {
 
-using Kind = basis::LightBasis::Kind;
+using Kind = basis::CubemapBasis::Kind;
 
 constexpr std::uint32_t kN = 16;
 
@@ -87,8 +87,9 @@ TEST_F(BasisBake, ConvergesToTheWaveletImageUnderLowFrequencyLight) {
 TEST_F(BasisBake, ADirectoryKnowsItsBasis) {
     const auto haar = baked("plane", parameters_of(Kind::haar));
     const auto harmonics = baked("plane", parameters_of(Kind::spherical_harmonics, 3));
-    EXPECT_EQ(haar->manifest().light_basis, basis::LightBasis::haar(kN));
-    EXPECT_EQ(harmonics->manifest().light_basis, basis::LightBasis::spherical_harmonics(3, kN));
+    EXPECT_EQ(haar->manifest().signal_basis, basis::CubemapBasis::haar(kN));
+    EXPECT_EQ(harmonics->manifest().signal_basis,
+              basis::CubemapBasis::spherical_harmonics(3, kN));
     EXPECT_NE(haar->manifest().fingerprint, harmonics->manifest().fingerprint);
 }
 

@@ -1,8 +1,8 @@
 #include "precompute/bake/block_encoder.h"
 
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/hash.h"
 #include "protocol/transport/quantise.h"
-#include "protocol/transport/receiver_basis.h"
 
 #include <gtest/gtest.h>
 

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-std::vector<LightBasis> bases() {
-    std::vector<LightBasis> all;
+std::vector<CubemapBasis> bases() {
+    std::vector<CubemapBasis> all;
     for (const std::uint32_t n : {4U, 16U, 64U}) {
-        all.push_back(LightBasis::haar(n));
+        all.push_back(CubemapBasis::haar(n));
         for (const std::uint32_t order : {1U, 2U, 7U, 20U}) {
-            all.push_back(LightBasis::spherical_harmonics(order, n));
+            all.push_back(CubemapBasis::spherical_harmonics(order, n));
         }
     }
     return all;
@@ -62,7 +62,7 @@ std::vector<float> texel_means(std::uint32_t n, Function function) {
 }
 
 TEST(CubemapProjection, TakesConstantLightToItsTerms) {
-    for (const LightBasis& basis : bases()) {
+    for (const CubemapBasis& basis : bases()) {
         const auto projection = CubemapProjection::onto(basis);
         const std::vector<float> white(texel_count(basis.face_resolution()), 1.0F);
         std::vector<float> coefficients(basis.coefficient_count());
@@ -77,7 +77,7 @@ TEST(CubemapProjection, TakesConstantLightToItsTerms) {
 
 // A white furnace, whatever the response: the product is the sum of the response.
 TEST(CubemapProjection, KeepsTheResponseToConstantLight) {
-    for (const LightBasis& basis : bases()) {
+    for (const CubemapBasis& basis : bases()) {
         const auto projection = CubemapProjection::onto(basis);
         const auto response = random_texels(basis.face_resolution(), 1);
         std::vector<float> row(basis.coefficient_count());
@@ -92,7 +92,7 @@ TEST(CubemapProjection, KeepsTheResponseToConstantLight) {
 
 // Σ_j T_j L_j is the response, texel by texel, to the light that the coefficients stand for.
 TEST(CubemapProjection, ProductIsTheResponseToTheReconstructedLight) {
-    for (const LightBasis& basis : bases()) {
+    for (const CubemapBasis& basis : bases()) {
         const auto projection = CubemapProjection::onto(basis);
         const auto response = random_texels(basis.face_resolution(), 2);
         const auto radiance = random_texels(basis.face_resolution(), 3);
@@ -107,7 +107,7 @@ TEST(CubemapProjection, ProductIsTheResponseToTheReconstructedLight) {
 }
 
 TEST(CubemapProjection, IsLinear) {
-    for (const LightBasis& basis : bases()) {
+    for (const CubemapBasis& basis : bases()) {
         const auto projection = CubemapProjection::onto(basis);
         const auto a = random_texels(basis.face_resolution(), 4);
         const auto b = random_texels(basis.face_resolution(), 5);
@@ -134,7 +134,7 @@ TEST(ShProjection, ComesBackFromItsOwnFunctions) {
     constexpr std::uint32_t kOrder = 10;
     double last_error = 1;
     for (const std::uint32_t n : {8U, 16U, 32U}) {
-        const LightBasis basis = LightBasis::spherical_harmonics(kOrder, n);
+        const CubemapBasis basis = CubemapBasis::spherical_harmonics(kOrder, n);
         const auto projection = CubemapProjection::onto(basis);
         double worst = 0;
         for (const std::size_t function : {0U, 2U, 25U, 99U}) {
@@ -159,7 +159,7 @@ TEST(ShProjection, ComesBackFromItsOwnFunctions) {
 TEST(ShProjection, BandEnergyIsRotationInvariant) {
     constexpr std::uint32_t kOrder = 8;
     constexpr std::uint32_t kN = 32;
-    const LightBasis basis = LightBasis::spherical_harmonics(kOrder, kN);
+    const CubemapBasis basis = CubemapBasis::spherical_harmonics(kOrder, kN);
     const auto projection = CubemapProjection::onto(basis);
     const auto band_energies = [&](const Imath::V3d& towards) {
         const auto texels = texel_means(
@@ -185,14 +185,14 @@ TEST(ShProjection, BandEnergyIsRotationInvariant) {
     }
 }
 
-TEST(LightBasis, CountsCoefficientsAndBands) {
-    const LightBasis haar = LightBasis::haar(64);
+TEST(CubemapBasis, CountsCoefficientsAndBands) {
+    const CubemapBasis haar = CubemapBasis::haar(64);
     EXPECT_EQ(haar.coefficient_count(), 6U * 64 * 64);
     EXPECT_EQ(haar.band_count(), 6U);
-    const LightBasis harmonics = LightBasis::spherical_harmonics(20, 64);
+    const CubemapBasis harmonics = CubemapBasis::spherical_harmonics(20, 64);
     EXPECT_EQ(harmonics.coefficient_count(), 400U);
     EXPECT_EQ(harmonics.band_count(), 20U);
-    for (const LightBasis& basis : bases()) {
+    for (const CubemapBasis& basis : bases()) {
         EXPECT_LE(basis.band_count(), kMaxBands);
         EXPECT_EQ(basis.band_from_coefficient(0), 0U);
         EXPECT_EQ(basis.band_from_coefficient(basis.coefficient_count() - 1),
@@ -200,11 +200,11 @@ TEST(LightBasis, CountsCoefficientsAndBands) {
     }
 }
 
-TEST(LightBasis, RefusesWhatNoBasisHas) {
-    EXPECT_THROW((void)LightBasis::haar(12), std::invalid_argument);
-    EXPECT_THROW((void)LightBasis::spherical_harmonics(5, 512), std::invalid_argument);
-    EXPECT_THROW((void)LightBasis::spherical_harmonics(0, 16), std::invalid_argument);
-    EXPECT_THROW((void)LightBasis::spherical_harmonics(kMaxShOrder + 1, 16),
+TEST(CubemapBasis, RefusesWhatNoBasisHas) {
+    EXPECT_THROW((void)CubemapBasis::haar(12), std::invalid_argument);
+    EXPECT_THROW((void)CubemapBasis::spherical_harmonics(5, 512), std::invalid_argument);
+    EXPECT_THROW((void)CubemapBasis::spherical_harmonics(0, 16), std::invalid_argument);
+    EXPECT_THROW((void)CubemapBasis::spherical_harmonics(kMaxShOrder + 1, 16),
                  std::invalid_argument);
 }
 

@@ -86,7 +86,8 @@ RC_GTEST_PROP(Session, ReachesTheDenseProductFromAnyHistory, ()) {
 
 TEST(Session, NonLinearApproximationWithAllTermsIsTheDenseProduct) {
     const TinyScene& tiny = scene_of(3);
-    Session session(tiny.scene()->workspace(), {.method = Method::nwa, .priority = Priority::area});
+    Session session(tiny.scene()->workspace(),
+                    {.method = Method::nwa, .priority = Priority::area});
     const auto light = test::random_lighting(8, 1);
     session.set_target(light);
     session.advance(coefficients(384));
@@ -114,7 +115,8 @@ TEST(Session, NonLinearApproximationForgetsTheImageBefore) {
 TEST(Session, ShowsTheProductOfItsApproximation) {
     for (const Method method : {Method::nwa, Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(3);
-        Session session(tiny.scene()->workspace(), {.method = method, .priority = Priority::transport});
+        Session session(tiny.scene()->workspace(),
+                        {.method = method, .priority = Priority::transport});
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             session.set_target(test::random_lighting(8, seed));
             session.advance(coefficients(30));
@@ -129,8 +131,10 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
     const TinyScene& tiny = scene_of(1);
     const auto bright = test::random_lighting(8, 1, 1e6F);
     const auto dim = test::random_lighting(8, 2, 1);
-    Session per_band(tiny.scene()->workspace(), {.method = Method::pbi, .priority = Priority::area});
-    Session basic(tiny.scene()->workspace(), {.method = Method::bi, .priority = Priority::area});
+    Session per_band(tiny.scene()->workspace(),
+                     {.method = Method::pbi, .priority = Priority::area});
+    Session basic(tiny.scene()->workspace(),
+                  {.method = Method::bi, .priority = Priority::area});
     for (Session* session : {&per_band, &basic}) {
         session->set_target(bright);
         session->advance(coefficients(384));
@@ -146,7 +150,8 @@ TEST(Session, PerBandIncrementalResetsWhereStartingAfreshIsNearer) {
 TEST(Session, ABrightLightLeavesNothingBehindWhileEditsGoOn) {
     for (const Method method : {Method::bi, Method::pbi, Method::guarded}) {
         const TinyScene& tiny = scene_of(1);
-        Session session(tiny.scene()->workspace(), {.method = method, .priority = Priority::transport});
+        Session session(tiny.scene()->workspace(),
+                        {.method = method, .priority = Priority::transport});
         const auto dim = test::random_lighting(8, 3, 0);
         for (int i = 0; i < 200; ++i) {
             auto light = dim;
@@ -273,7 +278,7 @@ TEST(Session, WritesTheTintedImageInPixelOrder) {
     std::vector<double> receivers(session.sums().begin(), session.sums().end());
     test::receivers_from_sums(receivers);
     for (const auto& [x, y] : {std::pair{0U, 0U}, {39U, 23U}, {17U, 16U}}) {
-        const auto [block, slot] = image.receiver_from_pixel(x, y);
+        const auto [block, slot] = image.place_from_pixel(x, y);
         for (std::size_t c = 0; c < 3; ++c) {
             const std::size_t i = (block * 3 + c) * 256 + slot;
             const double expected = receivers[i] * double{tiny.transport().tint()[i]};

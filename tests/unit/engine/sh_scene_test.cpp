@@ -22,7 +22,7 @@ constexpr std::uint32_t kOrder = basis::kMaxShOrder;
 
 const TinyScene& sh_scene() {
     static const TinyScene scene(
-        {.light_basis = basis::LightBasis::spherical_harmonics(kOrder, 8), .channels = 3});
+        {.signal_basis = basis::CubemapBasis::spherical_harmonics(kOrder, 8), .channels = 3});
     return scene;
 }
 
@@ -92,7 +92,8 @@ TEST(ShScene, LowOrderOfAHigherBakeIsTheProductOfTheTruncatedLight) {
             truncated[i] = 0;
         }
     }
-    Session session(sh_scene().scene()->workspace(), {.method = Method::nwa, .priority = Priority::none});
+    Session session(sh_scene().scene()->workspace(),
+                    {.method = Method::nwa, .priority = Priority::none});
     session.set_target(truncated);
     const StepReport step = session.advance_incrementally(columns(basis::sh_count(kLow)));
     EXPECT_EQ(step.applied, basis::sh_count(kLow));
@@ -104,7 +105,8 @@ TEST(ShScene, LowOrderOfAHigherBakeIsTheProductOfTheTruncatedLight) {
 
 // Per-band increments with a budget come home when the light rests, and say how far they are.
 TEST(ShScene, PerBandIncrementalConvergesAndStatesItsError) {
-    Session session(sh_scene().scene()->workspace(), {.method = Method::pbi, .priority = Priority::area});
+    Session session(sh_scene().scene()->workspace(),
+                    {.method = Method::pbi, .priority = Priority::area});
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
         const auto& target = light(seed);
         auto exact = test::dense_product(sh_scene().transport(), target);

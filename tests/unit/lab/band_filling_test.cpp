@@ -18,7 +18,7 @@ constexpr std::uint32_t kOrder = 6;
 class BandFillingTest : public testing::Test {
   protected:
     BandFillingTest()
-        : scene_({.light_basis = basis::LightBasis::spherical_harmonics(kOrder, kFace)}),
+        : scene_({.signal_basis = basis::CubemapBasis::spherical_harmonics(kOrder, kFace)}),
           lighting_(scene_.scene()->columns()) {}
 
     void set_target(std::uint64_t seed) {

@@ -21,7 +21,8 @@ class SelectorTest
     : public testing::TestWithParam<std::tuple<std::pair<std::uint32_t, std::uint64_t>, Norm>> {
   protected:
     SelectorTest()
-        : scene_({.light_basis = basis::LightBasis::haar(kFace)}), lighting_(scene_.scene()->columns()) {
+        : scene_({.signal_basis = basis::CubemapBasis::haar(kFace)}),
+          lighting_(scene_.scene()->columns()) {
         const auto [terms, seed] = std::get<0>(GetParam());
         budget_.columns = terms;
         lighting_.set_target(test::random_lighting(kFace, seed));
@@ -47,8 +48,8 @@ class SelectorTest
     engine::Plan plan_with(std::uint32_t bands_to_reset) {
         engine::Plan plan;
         plan.bands_to_reset = bands_to_reset;
-        selection_.choose(scene_.scene()->columns(), lighting_, ranking_, scene_.scene()->columns().places(),
-                          budget_, plan);
+        selection_.choose(scene_.scene()->columns(), lighting_, ranking_,
+                          scene_.scene()->columns().places(), budget_, plan);
         return plan;
     }
     double remaining(std::uint32_t bands_to_reset) {
@@ -108,12 +109,13 @@ INSTANTIATE_TEST_SUITE_P(TermsAndSeeds,
                                           testing::Values(Norm::l1, Norm::l2)));
 
 TEST(BandSelector, AtRestNothingIsReset) {
-    const engine::TinyScene scene({.light_basis = basis::LightBasis::haar(kFace)});
+    const engine::TinyScene scene({.signal_basis = basis::CubemapBasis::haar(kFace)});
     engine::SignalState lighting(scene.scene()->columns());
     lighting.set_target(test::random_lighting(kFace, 1));
     lighting.apply_all();
     engine::Ranking ranking;
-    ranking.rank(scene.scene()->columns(), lighting, scene.scene()->columns().weights(relighting::Priority::area));
+    ranking.rank(scene.scene()->columns(), lighting,
+                 scene.scene()->columns().weights(relighting::Priority::area));
     const BandChoice choice{.scene = *scene.scene(),
                             .lighting = lighting,
                             .ranking = ranking,

@@ -81,8 +81,8 @@ TEST(LightRig, CoefficientsAreTheProjectionOfEveryPlane) {
         std::make_shared<PrefilteredEnvironment>(lat_long_map(32, smooth_radiance), 8);
     LightCubemap cubemap;
     evaluate(rig, 8, cubemap);
-    for (const basis::LightBasis& basis :
-         {basis::LightBasis::haar(8), basis::LightBasis::spherical_harmonics(5, 8)}) {
+    for (const basis::CubemapBasis& basis :
+         {basis::CubemapBasis::haar(8), basis::CubemapBasis::spherical_harmonics(5, 8)}) {
         const auto projection = basis::CubemapProjection::onto(basis);
         const std::size_t count = basis.coefficient_count();
         std::vector<float> coefficients;
@@ -99,7 +99,7 @@ TEST(LightRig, CoefficientsAreTheProjectionOfEveryPlane) {
 }
 
 TEST(LightRig, RefusesAProjectionOfAnotherResolution) {
-    const auto projection = basis::CubemapProjection::onto(basis::LightBasis::haar(16));
+    const auto projection = basis::CubemapProjection::onto(basis::CubemapBasis::haar(16));
     std::vector<float> coefficients;
     EXPECT_THROW(lighting_coefficients(LightCubemap(8), *projection, coefficients),
                  std::invalid_argument);

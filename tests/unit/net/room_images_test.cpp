@@ -28,8 +28,8 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
     EXPECT_EQ(frame->header.coefficients_remaining, 0U);
 
     const transport::Transport& transport = scenes_.find("tiny")->scene->transport();
-    const transport::TileGrid& image = transport.manifest().image;
-    const std::uint32_t n = transport.manifest().light_basis.face_resolution();
+    const transport::TileGrid& image = transport.manifest().image();
+    const std::uint32_t n = transport.manifest().signal_basis.face_resolution();
     light::LightRig rig;
     rig.environment = environments_.find("map")->prefiltered(n);
     rig.rotation = Imath::Quatf(wire::quaternion_from_yaw_pitch_roll_degrees(40, 0, 0));
@@ -48,7 +48,7 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
     double norm = 0;
     for (std::uint32_t y = 0; y < image.height; ++y) {
         for (std::uint32_t x = 0; x < image.width; ++x) {
-            const transport::Receiver at = image.receiver_from_pixel(x, y);
+            const transport::ReceiverPlace at = image.place_from_pixel(x, y);
             const std::size_t pixel = std::size_t{y} * image.width + x;
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::size_t i = (at.block * 3 + c) * transport::kBlockSize + at.slot;

@@ -37,7 +37,7 @@ class Directory : public testing::TestWithParam<std::uint32_t> {
 TEST_P(Directory, OpensWhatWasWritten) {
     test::write_tiny_transport(path_, options_);
     const auto transport = Transport::open(path_);
-    EXPECT_EQ(transport->manifest().image.width, options_.width);
+    EXPECT_EQ(transport->manifest().image().width, options_.width);
     EXPECT_EQ(transport->channel_count(), options_.channels);
     EXPECT_EQ(transport->shards().size(), 2U);
     EXPECT_EQ(transport->manifest().measured.at("note"), "random");
@@ -46,15 +46,15 @@ TEST_P(Directory, OpensWhatWasWritten) {
 
 // A manifest that names another order than the shards were written with.
 TEST_P(Directory, RefusesABasisOfAnotherSize) {
-    options_.light_basis = basis::LightBasis::spherical_harmonics(5, 8);
+    options_.signal_basis = basis::CubemapBasis::spherical_harmonics(5, 8);
     test::write_tiny_transport(path_, options_);
     EXPECT_EQ(Transport::open(path_)->column_count(), 25U);
     const std::filesystem::path file = path_ / "manifest.json";
-    for (const basis::LightBasis& basis :
-         {basis::LightBasis::spherical_harmonics(4, 8),
-          basis::LightBasis::spherical_harmonics(6, 8), basis::LightBasis::haar(8)}) {
+    for (const basis::CubemapBasis& basis :
+         {basis::CubemapBasis::spherical_harmonics(4, 8),
+          basis::CubemapBasis::spherical_harmonics(6, 8), basis::CubemapBasis::haar(8)}) {
         Manifest manifest = manifest_from_text(contents(file), "m");
-        manifest.light_basis = basis;
+        manifest.signal_basis = basis;
         std::ofstream(file, std::ios::binary) << text_from_manifest(manifest);
         EXPECT_THROW((void)Transport::open(path_), TransportError);
     }

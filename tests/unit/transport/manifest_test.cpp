@@ -11,8 +11,8 @@ namespace {
 Manifest sample() {
     Manifest manifest;
     manifest.generator = "test";
-    manifest.image = {.width = 33, .height = 16};
-    manifest.light_basis = basis::LightBasis::haar(8);
+    manifest.layout = transport::ReceiverLayout::pixel_tiles({.width = 33, .height = 16});
+    manifest.signal_basis = basis::CubemapBasis::haar(8);
     manifest.stating_rows = 64;
     manifest.choosing_rows = 32;
     manifest.colour.matrix = {{{1}, {0.5F}, {0.25F}}};
@@ -73,13 +73,13 @@ TEST(Manifest, RefusesEveryWrongSamplingError) {
 }
 
 TEST(Manifest, NamesEitherBasisOfLight) {
-    for (const basis::LightBasis& basis :
-         {basis::LightBasis::haar(16), basis::LightBasis::spherical_harmonics(1, 4),
-          basis::LightBasis::spherical_harmonics(basis::kMaxShOrder, 256)}) {
+    for (const basis::CubemapBasis& basis :
+         {basis::CubemapBasis::haar(16), basis::CubemapBasis::spherical_harmonics(1, 4),
+          basis::CubemapBasis::spherical_harmonics(basis::kMaxShOrder, 256)}) {
         Manifest manifest = sample();
-        manifest.light_basis = basis;
+        manifest.signal_basis = basis;
         const Manifest read = manifest_from_text(text_from_manifest(manifest), "m");
-        EXPECT_EQ(read.light_basis, basis);
+        EXPECT_EQ(read.signal_basis, basis);
         EXPECT_EQ(read.column_count(), basis.coefficient_count());
     }
 }
@@ -115,7 +115,7 @@ TEST(Manifest, NamesFileKeyFoundAndExpected) {
         FAIL() << "a width of 99999 was accepted";
     } catch (const TransportError& error) {
         EXPECT_STREQ(error.what(),
-                     "some/manifest.json: manifest.image.width: found 99999, expected an "
+                     "some/manifest.json: manifest.image().width: found 99999, expected an "
                      "integer from 1 to 16384");
     }
 }

@@ -26,13 +26,13 @@ constexpr TileGrid kImage{.width = 24, .height = 10};
 
 struct Vector {
     const char* name;
-    basis::LightBasis basis;
+    basis::CubemapBasis basis;
     std::uint32_t channels;
 };
 std::vector<Vector> vectors() {
     return {
-        {.name = "haar", .basis = basis::LightBasis::haar(4), .channels = 3},
-        {.name = "sh", .basis = basis::LightBasis::spherical_harmonics(3, 4), .channels = 1}};
+        {.name = "haar", .basis = basis::CubemapBasis::haar(4), .channels = 3},
+        {.name = "sh", .basis = basis::CubemapBasis::spherical_harmonics(3, 4), .channels = 1}};
 }
 
 // Some values that the encoding can hold; few of them where it stores strips.
@@ -73,8 +73,8 @@ Content content_of(const Vector& vector) {
     Manifest& manifest = content.manifest;
     manifest.generator = "relume test vectors";
     manifest.fingerprint = 0x0123'4567'89AB'CDEF;
-    manifest.image = kImage;
-    manifest.light_basis = vector.basis;
+    manifest.layout = transport::ReceiverLayout::pixel_tiles(kImage);
+    manifest.signal_basis = vector.basis;
     manifest.stating_rows = 16;
     manifest.choosing_rows = 16;
     manifest.colour.channels = vector.channels;
@@ -105,7 +105,7 @@ Content content_of(const Vector& vector) {
     content.tables.tint.assign(receivers * kColours, 0);
     for (std::uint32_t y = 0; y < kImage.height; ++y) {
         for (std::uint32_t x = 0; x < kImage.width; ++x) {
-            const auto [block, slot] = kImage.receiver_from_pixel(x, y);
+            const auto [block, slot] = kImage.place_from_pixel(x, y);
             content.tables.coverage[block * kBlockSize + slot] = static_cast<float>(x % 5) / 4;
             for (std::size_t c = 0; c < kColours; ++c) {
                 content.tables.tint[(block * kColours + c) * kBlockSize + slot] =
@@ -136,7 +136,7 @@ void write(const Content& content, const fs::path& directory) {
 // T(p,c,j) by its definition: wavelet by wavelet, from the values before they are encoded.
 double transport_at(
     const Content& content, std::uint32_t x, std::uint32_t y, std::size_t c, std::size_t j) {
-    const auto [block, slot] = kImage.receiver_from_pixel(x, y);
+    const auto [block, slot] = kImage.place_from_pixel(x, y);
     const std::uint32_t row = y % kTileSide;
     const std::uint32_t column = x % kTileSide;
     double sum = 0;

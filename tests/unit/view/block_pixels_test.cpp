@@ -1,6 +1,6 @@
 #include "server/view/block_pixels.h"
 
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 
 #include <gtest/gtest.h>
 

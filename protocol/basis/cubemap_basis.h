@@ -14,7 +14,7 @@ namespace relume::basis {
 static_assert(kMaxShOrder <= kMaxBands);
 
 // A value; what follows from it alone. cubemap_projection.h goes from texels to coefficients.
-class LightBasis {
+class CubemapBasis {
   public:
     enum class Kind : std::uint8_t {
         haar,                // haar.h: 6·n² coefficients, a band a level
@@ -23,11 +23,11 @@ class LightBasis {
 
     // Light comes as a cubemap of resolution n in either kind. Throws std::invalid_argument
     // unless is_face_resolution(n) and 1 ≤ order ≤ kMaxShOrder.
-    [[nodiscard]] static LightBasis haar(std::uint32_t face_resolution);
-    [[nodiscard]] static LightBasis spherical_harmonics(std::uint32_t order,
-                                                        std::uint32_t face_resolution);
+    [[nodiscard]] static CubemapBasis haar(std::uint32_t face_resolution);
+    [[nodiscard]] static CubemapBasis spherical_harmonics(std::uint32_t order,
+                                                          std::uint32_t face_resolution);
     // Haar of the smallest cubemap.
-    LightBasis() = default;
+    CubemapBasis() = default;
 
     [[nodiscard]] Kind kind() const { return kind_; }
     [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
@@ -51,10 +51,10 @@ class LightBasis {
     };
     [[nodiscard]] std::vector<Term> constant_light() const;
 
-    friend bool operator==(const LightBasis&, const LightBasis&) = default;
+    friend bool operator==(const CubemapBasis&, const CubemapBasis&) = default;
 
   private:
-    LightBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t order);
+    CubemapBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t order);
 
     Kind kind_ = Kind::haar;
     std::uint32_t face_resolution_ = kMinFaceResolution;

@@ -1,7 +1,9 @@
-// The basis in which a block's 256 receivers are stored: the orthonormal 2-D Haar basis of its
-// 16×16 tile. Neighbouring pixels see much the same of the light, so that most coefficients of
-// a column vanish, where hardly a pixel does; and as the image is linear in them, it is summed
-// in this basis and transformed once.
+// The basis in which a block's 256 receivers are stored.
+//
+// Of pixel tiles it is the orthonormal 2-D Haar basis of the 16×16 tile. Neighbouring pixels
+// see much the same of the light, so that most coefficients of a column vanish, where hardly a
+// pixel does; and as the image is linear in them, it is summed in this basis and transformed
+// once.
 //
 // From the coarsest to the finest, the three wavelets of one place side by side, places in
 // Z-order: slot 0 holds the scaling coefficient, slots 4^ℓ + 3·z(column, row) + 0, 1, 2 the
@@ -36,7 +38,10 @@ inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
     return order;
 }();
 
-// In place, slots to coefficients and back.
+// Which of the bases below a transport's blocks are stored in.
+enum class BlockBasis : std::uint8_t { haar_tile };
+
+// In place, slots to coefficients of haar_tile and back.
 void block_coefficients_from_receivers(std::span<float, kBlockSize> values);
 void block_receivers_from_coefficients(std::span<float, kBlockSize> values);
 

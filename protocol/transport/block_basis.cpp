@@ -1,4 +1,4 @@
-#include "protocol/transport/receiver_basis.h"
+#include "protocol/transport/block_basis.h"
 
 #include "protocol/basis/cpu_clones.h"
 #include "protocol/basis/haar.h"

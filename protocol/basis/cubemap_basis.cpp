@@ -1,4 +1,4 @@
-#include "protocol/basis/light_basis.h"
+#include "protocol/basis/cubemap_basis.h"
 
 #include "protocol/basis/haar.h"
 
@@ -10,11 +10,12 @@
 
 namespace relume::basis {
 
-LightBasis LightBasis::haar(std::uint32_t face_resolution) {
+CubemapBasis CubemapBasis::haar(std::uint32_t face_resolution) {
     return {Kind::haar, face_resolution, 0};
 }
 
-LightBasis LightBasis::spherical_harmonics(std::uint32_t order, std::uint32_t face_resolution) {
+CubemapBasis CubemapBasis::spherical_harmonics(std::uint32_t order,
+                                               std::uint32_t face_resolution) {
     if (order < 1 || order > kMaxShOrder) {
         throw std::invalid_argument("order of spherical harmonics is " + std::to_string(order) +
                                     ", expected 1 to " + std::to_string(kMaxShOrder));
@@ -22,7 +23,7 @@ LightBasis LightBasis::spherical_harmonics(std::uint32_t order, std::uint32_t fa
     return {Kind::spherical_harmonics, face_resolution, order};
 }
 
-LightBasis::LightBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t order)
+CubemapBasis::CubemapBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t order)
     : kind_(kind), face_resolution_(face_resolution), order_(order) {
     if (!is_face_resolution(face_resolution)) {
         throw std::invalid_argument("face resolution is " + std::to_string(face_resolution) +
@@ -32,25 +33,25 @@ LightBasis::LightBasis(Kind kind, std::uint32_t face_resolution, std::uint32_t o
     }
 }
 
-std::size_t LightBasis::coefficient_count() const {
+std::size_t CubemapBasis::coefficient_count() const {
     return kind_ == Kind::haar ? texel_count(face_resolution_) : sh_count(order_);
 }
 
-std::uint32_t LightBasis::band_count() const {
+std::uint32_t CubemapBasis::band_count() const {
     return kind_ == Kind::haar ? basis::band_count(face_resolution_) : order_;
 }
 
-std::uint32_t LightBasis::band_from_coefficient(std::size_t coefficient) const {
+std::uint32_t CubemapBasis::band_from_coefficient(std::size_t coefficient) const {
     return kind_ == Kind::haar ? basis::band_from_coefficient(face_resolution_, coefficient)
                                : sh_band_from_index(coefficient);
 }
 
-float LightBasis::octave_from_band(std::uint32_t band) const {
+float CubemapBasis::octave_from_band(std::uint32_t band) const {
     const auto frequency = static_cast<float>(band);
     return kind_ == Kind::haar ? frequency : std::log2(std::max(frequency, 1.0F));
 }
 
-Bands LightBasis::bands() const {
+Bands CubemapBasis::bands() const {
     Bands bands;
     for (std::size_t j = 0; j < coefficient_count(); ++j) {
         bands.of_coefficient.push_back(static_cast<std::uint8_t>(band_from_coefficient(j)));
@@ -61,7 +62,7 @@ Bands LightBasis::bands() const {
     return bands;
 }
 
-std::vector<LightBasis::Term> LightBasis::constant_light() const {
+std::vector<CubemapBasis::Term> CubemapBasis::constant_light() const {
     if (kind_ == Kind::spherical_harmonics) {
         return {{.coefficient = 0, .value = std::sqrt(4 * std::numbers::pi_v<float>)}};
     }
