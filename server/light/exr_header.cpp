@@ -1,6 +1,7 @@
 #include "server/light/exr_header.h"
 
 #include "server/light/environment_error.h"
+#include "server/light/exr_reader.h"
 
 #include <fmt/core.h>
 
@@ -25,55 +26,10 @@ constexpr std::uint32_t kTiled = 0x200;
 constexpr std::uint32_t kLongNames = 0x400;
 constexpr std::uint32_t kNonImage = 0x800;
 constexpr std::uint32_t kMultipart = 0x1000;
-constexpr std::size_t kMostNameBytes = 255;
 constexpr std::size_t kMostParts = 256;
 constexpr std::size_t kMostAttributes = 1024;
 constexpr std::size_t kMostChannels = 1024;
 constexpr std::array<const char*, 3> kWindows{"dataWindow", "displayWindow"};
-
-// Little-endian values out of a span that may end at any byte.
-class Reader {
-  public:
-    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-    [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
-    [[nodiscard]] std::size_t at() const { return at_; }
-
-    template <typename Number>
-    Number number() {
-        Number value{};
-        std::memcpy(&value, take(sizeof value).data(), sizeof value);
-        return value;
-    }
-
-    std::span<const std::byte> take(std::size_t count) {
-        if (count > left()) {
-            refuse_incomplete("in its header");
-        }
-        const auto taken = bytes_.subspan(at_, count);
-        at_ += count;
-        return taken;
-    }
-
-    std::string name() {
-        std::string text;
-        for (;;) {
-            const char c = number<char>();
-            if (c == '\0') {
-                return text;
-            }
-            if (text.size() == kMostNameBytes) {
-                refuse_image("header", "one with a name that does not end",
-                             fmt::format("names of at most {} bytes", kMostNameBytes));
-            }
-            text += c;
-        }
-    }
-
-  private:
-    std::span<const std::byte> bytes_;
-    std::size_t at_ = 0;
-};
 
 struct Tiles {
     std::uint32_t width = 0;
@@ -96,7 +52,7 @@ std::string text_of(std::span<const std::byte> bytes) {
 }
 
 std::vector<ExrChannel> channels_from(std::span<const std::byte> value) {
-    Reader reader(value);
+    ExrReader reader(value);
     std::vector<ExrChannel> channels;
     for (;;) {
         ExrChannel channel;
@@ -135,7 +91,7 @@ void take_attribute(Draft& draft,
                     const std::string& type,
                     std::span<const std::byte> value) {
     ExrPart& part = draft.part;
-    Reader reader(value);
+    ExrReader reader(value);
     if (name == "channels") {
         part.channels = channels_from(value);
         draft.has_channels = true;
@@ -160,9 +116,9 @@ void take_attribute(Draft& draft,
         tiles.mode = reader.number<std::uint8_t>();
         draft.tiles = tiles;
     } else if (name == "name" && type == "string") {
-        part.name = text_of(value.first(std::min(value.size(), kMostNameBytes)));
+        part.name = text_of(value.first(std::min(value.size(), ExrReader::kMostNameBytes)));
     } else if (name == "type" && type == "string") {
-        part.type = text_of(value.first(std::min(value.size(), kMostNameBytes)));
+        part.type = text_of(value.first(std::min(value.size(), ExrReader::kMostNameBytes)));
     } else if (name == "chunkCount" && value.size() == 4) {
         draft.stated_chunks = reader.number<std::int32_t>();
     } else if (name == "Orientation" && type == "int" && value.size() == 4) {
@@ -180,7 +136,7 @@ void take_attribute(Draft& draft,
 }
 
 // Empty where the list of parts ends.
-std::optional<Draft> next_part(Reader& reader) {
+std::optional<Draft> next_part(ExrReader& reader) {
     Draft draft;
     for (std::size_t count = 0;; ++count) {
         const std::string name = reader.name();
@@ -310,7 +266,7 @@ void check_part(Draft& draft, bool is_tiled, bool is_multipart, const ImageBound
 }
 
 // The tables of all parts, and that every chunk they name is whole.
-void check_chunks(Reader& reader,
+void check_chunks(ExrReader& reader,
                   std::span<const std::byte> bytes,
                   const std::vector<ExrPart>& parts,
                   bool is_multipart) {
@@ -345,7 +301,7 @@ bool has_several_parts(std::uint32_t version) {
     return (version & kMultipart) != 0;
 }
 
-std::uint32_t read_version(Reader& reader) {
+std::uint32_t read_version(ExrReader& reader) {
     (void)reader.number<std::uint32_t>();  // the magic number
     const auto version = reader.number<std::uint32_t>();
     constexpr std::uint32_t kKnown = 0xFFU | kTiled | kLongNames | kNonImage | kMultipart;
@@ -355,7 +311,7 @@ std::uint32_t read_version(Reader& reader) {
     return version;
 }
 
-std::vector<ExrPart> read_headers(Reader& reader,
+std::vector<ExrPart> read_headers(ExrReader& reader,
                                   std::uint32_t version,
                                   const ImageBounds& bounds) {
     const bool is_multipart = has_several_parts(version);
@@ -386,13 +342,13 @@ std::vector<ExrPart> read_headers(Reader& reader,
 
 std::vector<ExrPart> walk_exr_headers(std::span<const std::byte> bytes,
                                       const ImageBounds& bounds) {
-    Reader reader(bytes);
+    ExrReader reader(bytes);
     const std::uint32_t version = read_version(reader);
     return read_headers(reader, version, bounds);
 }
 
 std::vector<ExrPart> walk_exr(std::span<const std::byte> bytes, const ImageBounds& bounds) {
-    Reader reader(bytes);
+    ExrReader reader(bytes);
     const std::uint32_t version = read_version(reader);
     std::vector<ExrPart> parts = read_headers(reader, version, bounds);
     check_chunks(reader, bytes, parts, has_several_parts(version));
