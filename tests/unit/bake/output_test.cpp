@@ -196,7 +196,7 @@ TEST_F(Output, WrongUsageEndsWithTwoAndFailureWithOne) {
     EXPECT_EQ(run({"--builtin", "plane", "-o", file("x"), "--size", "640"}), 2);
     EXPECT_EQ(run({"--builtin", "plane", "-o", file("x"), "--sampels", "5"}), 2);
     EXPECT_TRUE(says("did you mean --samples?")) << errors_;
-    EXPECT_EQ(run({"--builtin", "tabel", "-o", file("x")}), 1);
+    EXPECT_EQ(run({"--builtin", "tabel", "-o", file("x")}), 2);
     EXPECT_TRUE(says("did you mean table?")) << errors_;
     EXPECT_EQ(run({"verify"}), 2);
     ASSERT_EQ(bake_to(file("mine.relume")), 0);

@@ -115,7 +115,7 @@ TEST(Manifest, NamesFileKeyFoundAndExpected) {
         FAIL() << "a width of 99999 was accepted";
     } catch (const TransportError& error) {
         EXPECT_STREQ(error.what(),
-                     "some/manifest.json: manifest.image().width: found 99999, expected an "
+                     "some/manifest.json: manifest.image.width: found 99999, expected an "
                      "integer from 1 to 16384");
     }
 }
