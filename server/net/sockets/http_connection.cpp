@@ -214,13 +214,18 @@ class HttpConnection {
     // for no answer.
     asio::awaitable<void> stop_when_the_client_ends(std::stop_source& stop) {
         auto& socket = stream_.socket();
-        auto [error] = co_await socket.async_wait(asio::socket_base::wait_read, kNoThrow);
         char byte = 0;
         beast::error_code ended;
-        if (!error) {
-            socket.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, ended);
-        }
-        if (!error && ended) {
+        // A wait may end with nothing to read: to ask then must not hold the thread.
+        socket.non_blocking(true, ended);
+        do {
+            auto [error] = co_await socket.async_wait(asio::socket_base::wait_read, kNoThrow);
+            ended = {};
+            if (!error) {
+                socket.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, ended);
+            }
+        } while (ended == asio::error::would_block);
+        if (ended) {
             stop.request_stop();
         }
         asio::steady_timer forever(socket.get_executor(), Clock::time_point::max());

@@ -49,6 +49,21 @@ TEST_F(UploadTest, UploadsAreDecodedAndListed) {
     EXPECT_EQ(http(port(), "GET", "/api/environments/mine/preview.jpg").status, 200U);
 }
 
+// While a map is decoded its connection is watched for the client's end; whatever the system
+// says of the connection meanwhile, the threads that serve sockets go on.
+TEST_F(UploadTest, EveryOneOfManyUploadsIsAnswered) {
+    start();
+    const std::string file = hdr_file(8, 4);
+    for (int i = 0; i < 600; ++i) {
+        RawSocket socket(port());
+        socket.send("POST /api/environments?name=u" + std::to_string(i % 4) +
+                    " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) +
+                    "\r\nContent-Length: " + std::to_string(file.size()) + "\r\n\r\n");
+        socket.send(file);
+        ASSERT_EQ(socket.receive_until("\r\n\r\n").substr(0, 12), "HTTP/1.1 201") << i;
+    }
+}
+
 TEST_F(UploadTest, BadUploadsGetNamedErrors) {
     configuration_.limits.upload_bytes = 100'000;
     start();
