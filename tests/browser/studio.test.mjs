@@ -214,7 +214,7 @@ describe("studio page", { timeout: 240_000 }, () => {
                 [],
             );
         } finally {
-            await guarded.stop();
+            await guarded.stop("SIGTERM");
         }
     });
 
