@@ -13,7 +13,8 @@ namespace relume::basis {
 
 static_assert(kMaxShOrder <= kMaxBands);
 
-// A value; what follows from it alone. cubemap_projection.h goes from texels to coefficients.
+// A value: kind, order and resolution, and the counts and bands that follow from them.
+// cubemap_projection.h goes from texels to coefficients.
 class CubemapBasis {
   public:
     enum class Kind : std::uint8_t {

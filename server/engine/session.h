@@ -36,8 +36,8 @@ class Session;
 struct SessionStep {
     Session* session = nullptr;
     relighting::Budget budget;  // milliseconds: of the whole step, all sessions in it
-    // Of one call, whatever the budget, by what the work has been taking: what is left of the
-    // budget then is for the caller to give again.
+    // Of one call, however large the budget: the call ends about then, by what such work has
+    // been taking, and the next call goes on with what is left of the budget.
     double ceiling_milliseconds = std::numeric_limits<double>::infinity();
     StepReport report;  // what it did
 };

@@ -14,8 +14,8 @@
 
 namespace relume::engine {
 
-// Knows nothing of light, of pixels or of files. Immutable; safe to share between threads. The
-// spans that it is made of are kept and outlive it.
+// Knows nothing of light, of pixels or of files. Immutable; safe to share between threads. It
+// keeps the spans it is made of: whoever makes it keeps what they point to.
 class ColumnTable {
   public:
     // Of N columns.
@@ -65,7 +65,7 @@ class ColumnTable {
     // What a coefficient's change is multiplied with, per colour, to rank it: [3][N], planar.
     //   none       1                                             [Ng03 §4.1, unweighted]
     //   area       2^−octave of the band: a wavelet's amplitude·area [Ng03 §4.1,
-    //              area-weighted]; for spherical harmonics the inverse of the tolerance, README
+    //              area-weighted]; the inverse of a tolerance for spherical harmonics
     //   transport  ‖T_j‖ of the colour                    [Ng03 §4.1, transport-weighted]
     //   benefit    ‖T_j‖ / √(bytes of the column): squared, what the sums gain per byte read
     [[nodiscard]] std::span<const float> weights(relighting::Priority priority) const {
