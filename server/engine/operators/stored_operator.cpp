@@ -31,14 +31,16 @@ TransportOperator::BlockRun StoredOperator::run(std::size_t number) const {
     return {.first = shard.first_block(), .count = shard.block_count()};
 }
 
-std::uint64_t StoredOperator::add(std::size_t run,
-                                  std::span<const ColumnChange> changes,
-                                  const RunTargets& targets) const {
+void StoredOperator::add(std::size_t run,
+                         std::span<const ColumnChange> changes,
+                         const RunTargets& targets) const {
     const std::uint32_t blocks = transport_->shards()[run].block_count();
     thread_local std::vector<WeightedSegment> segments;
     gather_segments(*transport_, run, changes, segments);
     accumulate_segments(segments, blocks, {.sums = targets.sums, .total = targets.total});
-    return occupied_blocks(segments, blocks);
+    if (targets.occupied != nullptr) {
+        *targets.occupied = occupied_blocks(segments, blocks);
+    }
 }
 
 void StoredOperator::set_weights(std::span<const float> signal, Weights& weights) const {

@@ -26,9 +26,9 @@ class StoredOperator final : public TransportOperator {
 
     [[nodiscard]] std::size_t run_count() const override;
     [[nodiscard]] BlockRun run(std::size_t number) const override;
-    std::uint64_t add(std::size_t run,
-                      std::span<const ColumnChange> changes,
-                      const RunTargets& targets) const override;
+    void add(std::size_t run,
+             std::span<const ColumnChange> changes,
+             const RunTargets& targets) const override;
     void set_weights(std::span<const float> signal, Weights& weights) const override;
     void multiply(std::uint32_t block,
                   std::uint32_t band,

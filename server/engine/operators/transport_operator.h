@@ -41,16 +41,17 @@ class TransportOperator {
     [[nodiscard]] virtual BlockRun run(std::size_t number) const = 0;
 
     // Where a run's changes are added: [count][3][256] each, with no overlap. `total` may be
-    // null.
+    // null; `occupied` too, else it is set to the blocks of the run in which anything was
+    // added, a bit each.
     struct RunTargets {
         float* sums = nullptr;
         float* total = nullptr;
+        std::uint64_t* occupied = nullptr;
     };
-    // Adds T_j·(to − from) of every change to both targets. Returns the blocks of the run in
-    // which anything was added, a bit each.
-    virtual std::uint64_t add(std::size_t run,
-                              std::span<const ColumnChange> changes,
-                              const RunTargets& targets) const = 0;
+    // Adds T_j·(to − from) of every change to both targets.
+    virtual void add(std::size_t run,
+                     std::span<const ColumnChange> changes,
+                     const RunTargets& targets) const = 0;
 
     // A whole signal as `multiply` takes it: an operator's own, of its length and order.
     using Weights = std::vector<float>;

@@ -121,8 +121,7 @@ void BandSums::update_run(std::size_t run) {
         }
     }
     if (!step_.changes.total_alone.empty()) {
-        operator_->add(run, step_.changes.total_alone,
-                       {.sums = total_.block(first), .total = nullptr});
+        operator_->add(run, step_.changes.total_alone, {.sums = total_.block(first)});
     }
     for (std::uint32_t band = 0; band < bands_.size(); ++band) {
         const auto of_band =
@@ -130,8 +129,11 @@ void BandSums::update_run(std::size_t run) {
         if (of_band.empty()) {
             continue;
         }
-        const std::uint64_t blocks = operator_->add(
-            run, of_band, {.sums = bands_[band].block(first), .total = total_.block(first)});
+        std::uint64_t blocks = 0;
+        operator_->add(run, of_band,
+                       {.sums = bands_[band].block(first),
+                        .total = total_.block(first),
+                        .occupied = &blocks});
         for_each_bit(blocks, [&, first = first](std::uint32_t block) {
             occupied_[first + block] |= band_bit(band);
         });
@@ -318,7 +320,7 @@ void BandSums::renew_total() {
         for (std::uint32_t block = first; block < first + count; ++block) {
             sum_bands(block);
         }
-        operator_->add(run, loose_.columns(), {.sums = total_.block(first), .total = nullptr});
+        operator_->add(run, loose_.columns(), {.sums = total_.block(first)});
         for (std::uint32_t block = first; block < first + count; ++block) {
             measure(block, all_images);
         }

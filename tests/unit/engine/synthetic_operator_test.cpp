@@ -140,9 +140,9 @@ class SyntheticOperator final : private Tables, public TransportOperator {
     [[nodiscard]] BlockRun run(std::size_t number) const override {
         return {.first = static_cast<std::uint32_t>(number), .count = 1};
     }
-    std::uint64_t add(std::size_t run,
-                      std::span<const ColumnChange> changes,
-                      const RunTargets& targets) const override {
+    void add(std::size_t run,
+             std::span<const ColumnChange> changes,
+             const RunTargets& targets) const override {
         for (const ColumnChange& change : changes) {
             for_each_value(static_cast<std::uint32_t>(run), change.column,
                            [&](std::size_t c, std::size_t place, float value) {
@@ -152,7 +152,9 @@ class SyntheticOperator final : private Tables, public TransportOperator {
                                }
                            });
         }
-        return changes.empty() ? 0 : 1;
+        if (targets.occupied != nullptr) {
+            *targets.occupied = changes.empty() ? 0 : 1;
+        }
     }
     void set_weights(std::span<const float> signal, Weights& weights) const override {
         weights.assign(signal.begin(), signal.end());
