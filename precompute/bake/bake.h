@@ -1,7 +1,7 @@
 // From a scene to a transport directory.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 
 #include <cstdint>

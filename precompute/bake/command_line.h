@@ -1,7 +1,7 @@
 // The words relume-bake understands.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 
 #include <CLI/App.hpp>
 

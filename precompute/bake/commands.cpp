@@ -1,7 +1,7 @@
 #include "precompute/bake/commands.h"
 
 #include "precompute/bake/bake.h"
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/framing.h"
 #include "precompute/bake/image_file.h"
 #include "precompute/bake/inspect.h"

@@ -1,7 +1,7 @@
 // A number that names the inputs of a bake: scene, camera, parameters, generator.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 #include "precompute/scene/camera.h"
 #include "precompute/scene/scene.h"
 

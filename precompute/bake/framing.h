@@ -1,8 +1,8 @@
 // What an image will show, before it is baked.
 #pragma once
 
-#include "precompute/bake/parameters.h"
-#include "precompute/bake/ray_caster.h"
+#include "precompute/bake/base/parameters.h"
+#include "precompute/bake/rays/ray_caster.h"
 #include "precompute/scene/camera.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "precompute/bake/image_file.h"
 
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "protocol/base/files/atomic_file.h"
 
 #include <OpenImageIO/filesystem.h>

@@ -1,7 +1,7 @@
 // relume-bake: scene → transport directory; and what people ask about one.
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/command_line.h"
 #include "precompute/bake/commands.h"
-#include "precompute/bake/error.h"
 #include "protocol/base/program/program.h"
 
 #include <CLI/CLI.hpp>

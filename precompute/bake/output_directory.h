@@ -2,7 +2,7 @@
 // find, a directory that is ours alone and takes what will be written.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 #include "protocol/base/files/directory_lock.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "precompute/bake/relight.h"
 
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"

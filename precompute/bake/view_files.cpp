@@ -1,8 +1,8 @@
 #include "precompute/bake/view_files.h"
 
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/image_file.h"
-#include "precompute/bake/receiver.h"
+#include "precompute/bake/receivers/receiver.h"
 #include "precompute/bake/relight.h"
 #include "protocol/basis/cubemap.h"
 

@@ -1,8 +1,8 @@
 // What people and clients look at beside the transport: albedo, depth, a picture, a thumbnail.
 #pragma once
 
-#include "precompute/bake/parameters.h"
-#include "precompute/bake/ray_caster.h"
+#include "precompute/bake/base/parameters.h"
+#include "precompute/bake/rays/ray_caster.h"
 #include "precompute/scene/camera.h"
 
 #include <Imath/ImathVec.h>

@@ -1,9 +1,9 @@
 #include "tests/bench/float_tiles.h"
 
-#include "precompute/bake/colour_split.h"
-#include "precompute/bake/light_model.h"
-#include "precompute/bake/row_baker.h"
-#include "precompute/bake/tile_window.h"
+#include "precompute/bake/blocks/colour_split.h"
+#include "precompute/bake/blocks/light_model.h"
+#include "precompute/bake/rows/row_baker.h"
+#include "precompute/bake/rows/tile_window.h"
 #include "precompute/scene/builtin.h"
 
 #include <tbb/enumerable_thread_specific.h>

@@ -1,9 +1,9 @@
 // Tiles of a scene's transport before quantisation: what two quantisers can be compared on.
 #pragma once
 
-#include "precompute/bake/block_rows.h"
-#include "precompute/bake/parameters.h"
-#include "precompute/bake/pilot.h"
+#include "precompute/bake/base/parameters.h"
+#include "precompute/bake/blocks/block_rows.h"
+#include "precompute/bake/blocks/pilot.h"
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace relume::bench {
 
-// The lights errors are measured under (precompute/bake/light_model.h), kind by kind.
+// The lights errors are measured under (precompute/bake/blocks/light_model.h), kind by kind.
 struct TestLights {
     static constexpr std::size_t kKinds = 2;  // natural, sun
     static constexpr std::size_t kPerKind = 4;

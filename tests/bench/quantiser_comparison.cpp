@@ -1,6 +1,6 @@
 #include "tests/bench/quantiser_comparison.h"
 
-#include "precompute/bake/block_encoder.h"
+#include "precompute/bake/blocks/block_encoder.h"
 #include "protocol/transport/block_basis.h"
 #include "tests/bench/sparse_columns.h"
 

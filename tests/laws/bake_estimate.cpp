@@ -1,8 +1,8 @@
 #include "tests/laws/bake_estimate.h"
 
 #include "precompute/bake/bake.h"
-#include "precompute/bake/row_baker.h"
-#include "precompute/bake/tile_window.h"
+#include "precompute/bake/rows/row_baker.h"
+#include "precompute/bake/rows/tile_window.h"
 #include "precompute/scene/camera.h"
 #include "protocol/transport/transport.h"
 

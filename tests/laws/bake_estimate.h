@@ -2,7 +2,7 @@
 // measure of its own noise.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 #include "tests/support/dense_product.h"
 

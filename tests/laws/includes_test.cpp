@@ -29,7 +29,21 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
         {"protocol/relighting", {}},
         {"protocol/wire", {"protocol/relighting"}},
         {"precompute/scene", {"protocol/basis"}},
-        {"precompute/bake", {"precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"precompute/bake/base", {"precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"precompute/bake/rays",
+         {"precompute/bake/base", "precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"precompute/bake/receivers",
+         {"precompute/bake/rays", "precompute/scene", "protocol/transport"}},
+        {"precompute/bake/rows",
+         {"precompute/bake/base", "precompute/bake/rays", "precompute/bake/receivers",
+          "precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"precompute/bake/blocks",
+         {"precompute/bake/base", "precompute/bake/rays", "precompute/bake/receivers",
+          "precompute/bake/rows", "precompute/scene", "protocol/basis", "protocol/transport"}},
+        {"precompute/bake",
+         {"precompute/bake/base", "precompute/bake/blocks", "precompute/bake/rays",
+          "precompute/bake/receivers", "precompute/bake/rows", "precompute/scene",
+          "protocol/basis", "protocol/transport"}},
         {"server/light", {"protocol/basis"}},
         {"server/engine/kernels", {"protocol/transport"}},
         {"server/engine/columns",
@@ -48,8 +62,8 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
           "server/engine/operators", "server/engine/sums"}},
         {"server/view", {"protocol/transport", "server/engine/kernels"}},
         {"server/scene",
-         {"protocol/basis", "protocol/transport", "server/engine",
-          "server/engine/operators", "server/view"}},
+         {"protocol/basis", "protocol/transport", "server/engine", "server/engine/operators",
+          "server/view"}},
         {"server/net/base", {"protocol/wire", "server/engine"}},
         {"server/net/peers", {"server/net/base"}},
         {"server/net/images",
@@ -155,11 +169,14 @@ TEST(Includes, ForbiddenOnesAreSeen) {
     };
     EXPECT_EQ(forbidden("precompute/bake/a.cpp", "#include \"server/engine/b.h\"\n").size(),
               1U);
+    EXPECT_EQ(
+        forbidden("precompute/bake/rows/a.h", "#include \"precompute/bake/b.h\"\n").size(), 1U);
     EXPECT_EQ(forbidden("server/engine/a.h", "  #  include <server/net/b.h>\n").size(), 1U);
     EXPECT_EQ(forbidden("protocol/basis/a.h", "#include \"protocol/transport/b.h\"\n").size(),
               1U);
     EXPECT_EQ(forbidden("server/net/a.h", "#include \"tests/support/b.h\"\n").size(), 1U);
-    EXPECT_TRUE(forbidden("server/net/rooms/a.h", "#include \"server/net/base/b.h\"\n").empty());
+    EXPECT_TRUE(
+        forbidden("server/net/rooms/a.h", "#include \"server/net/base/b.h\"\n").empty());
     EXPECT_TRUE(forbidden("server/net/a.h", "#include <vector>\n").empty());
 }
 

@@ -1,6 +1,6 @@
 #include "tests/lab/charts/noise_sheet.h"
 
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/image_file.h"
 #include "protocol/wire/display.h"
 #include "tests/lab/measures/display_exposure.h"

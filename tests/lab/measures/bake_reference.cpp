@@ -1,8 +1,8 @@
 #include "tests/lab/measures/bake_reference.h"
 
-#include "precompute/bake/direct_light.h"
-#include "precompute/bake/path_tracer.h"
-#include "precompute/bake/receiver.h"
+#include "precompute/bake/receivers/receiver.h"
+#include "precompute/bake/rows/direct_light.h"
+#include "precompute/bake/rows/path_tracer.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/hash.h"
 

@@ -1,7 +1,7 @@
 #include "tests/lab/measures/scene_noise.h"
 
 #include "precompute/bake/bake.h"
-#include "precompute/bake/light_model.h"
+#include "precompute/bake/blocks/light_model.h"
 #include "precompute/bake/relight.h"
 #include "protocol/basis/haar.h"
 #include "protocol/transport/transport.h"

@@ -1,7 +1,7 @@
 // Bakes of a scene with given parameters, against its reference, under several lights.
 #pragma once
 
-#include "precompute/bake/parameters.h"
+#include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 #include "protocol/transport/manifest.h"
 #include "tests/lab/measures/bake_noise.h"

@@ -1,6 +1,6 @@
 #include "precompute/bake/bake.h"
 
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/inspect.h"
 #include "precompute/bake/relight.h"
 #include "precompute/scene/builtin.h"

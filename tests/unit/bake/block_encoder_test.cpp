@@ -1,4 +1,4 @@
-#include "precompute/bake/block_encoder.h"
+#include "precompute/bake/blocks/block_encoder.h"
 
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/hash.h"

@@ -1,4 +1,4 @@
-#include "precompute/bake/colour_split.h"
+#include "precompute/bake/blocks/colour_split.h"
 
 #include "protocol/transport/hash.h"
 

@@ -3,7 +3,7 @@
 #include "precompute/bake/framing.h"
 
 #include "precompute/bake/bake.h"
-#include "precompute/bake/error.h"
+#include "precompute/bake/base/error.h"
 #include "precompute/bake/relight.h"
 #include "precompute/scene/import.h"
 #include "protocol/transport/transport.h"

@@ -1,4 +1,4 @@
-#include "precompute/bake/light_texels.h"
+#include "precompute/bake/rows/light_texels.h"
 
 #include <gtest/gtest.h>
 

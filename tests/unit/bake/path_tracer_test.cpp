@@ -1,8 +1,8 @@
 // Paths that look at the sky in several directions at once find what single ones find, with
 // less noise.
-#include "precompute/bake/path_tracer.h"
+#include "precompute/bake/rows/path_tracer.h"
 
-#include "precompute/bake/receiver.h"
+#include "precompute/bake/receivers/receiver.h"
 #include "precompute/scene/builtin.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What a pixel sees, and how well its samples tell shares and coverage.
-#include "precompute/bake/receiver.h"
+#include "precompute/bake/receivers/receiver.h"
 
 #include "precompute/scene/builtin.h"
 

@@ -1,6 +1,6 @@
-#include "precompute/bake/reflection.h"
+#include "precompute/bake/rows/reflection.h"
 
-#include "precompute/bake/sobol.h"
+#include "precompute/bake/rays/sobol.h"
 
 #include <gtest/gtest.h>
 

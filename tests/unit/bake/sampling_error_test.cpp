@@ -1,5 +1,5 @@
 // The error that a bake states of its own sampling.
-#include "precompute/bake/sampling_error.h"
+#include "precompute/bake/blocks/sampling_error.h"
 
 #include "precompute/scene/builtin.h"
 

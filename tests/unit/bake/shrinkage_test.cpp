@@ -1,7 +1,7 @@
-#include "precompute/bake/shrinkage.h"
+#include "precompute/bake/rows/shrinkage.h"
 
-#include "precompute/bake/path_tracer.h"
-#include "precompute/bake/sobol.h"
+#include "precompute/bake/rays/sobol.h"
+#include "precompute/bake/rows/path_tracer.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/haar.h"
 #include "protocol/transport/hash.h"

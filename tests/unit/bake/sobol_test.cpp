@@ -1,4 +1,4 @@
-#include "precompute/bake/sobol.h"
+#include "precompute/bake/rays/sobol.h"
 
 #include <gtest/gtest.h>
 

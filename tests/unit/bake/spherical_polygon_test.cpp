@@ -1,6 +1,6 @@
-#include "precompute/bake/spherical_polygon.h"
+#include "precompute/bake/rows/spherical_polygon.h"
 
-#include "precompute/bake/light_texels.h"
+#include "precompute/bake/rows/light_texels.h"
 
 #include <gtest/gtest.h>
 

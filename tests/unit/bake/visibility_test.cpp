@@ -1,4 +1,4 @@
-#include "precompute/bake/visibility.h"
+#include "precompute/bake/rows/visibility.h"
 
 #include "precompute/scene/builtin.h"
 #include "protocol/transport/hash.h"

@@ -1,0 +1,107 @@
+#include "precompute/bake/blocks/error_meter.h"
+
+#include "precompute/bake/blocks/light_model.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace relume::bake {
+namespace {
+
+double relative(double error, double value) {
+    return value > 0 ? std::sqrt(error / value) : 0.0;
+}
+
+double inner_product(std::span<const float> row, std::span<const float> light) {
+    double sum = 0;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+        sum += double{row[j]} * double{light[j]};
+    }
+    return sum;
+}
+
+}  // namespace
+
+void ErrorSums::add(const ErrorSums& other) {
+    error += other.error;
+    value += other.value;
+    gradient_error += other.gradient_error;
+    gradient += other.gradient;
+}
+
+ErrorMeter::ErrorMeter(const basis::CubemapProjection& projection,
+                       const Quantisation& quantisation)
+    : quantisation_(quantisation) {
+    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
+        lights_.push_back(natural_light(projection.basis(), i));
+    }
+    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
+        lights_.push_back(sun_light(projection, i));
+    }
+}
+
+void ErrorMeter::measure_exact(const CoefficientRow& exact, PixelLight& light) const {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            light.exact[i][c] = inner_product(exact.rgb[c], lights_[i]);
+        }
+    }
+}
+
+void ErrorMeter::measure_stored(std::span<const float> stored,
+                                const Imath::V3f& tint,
+                                PixelLight& light) const {
+    const transport::ColourModel& colour = quantisation_.colour;
+    const std::size_t columns = stored.size() / colour.channels;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        for (std::size_t k = 0; k < colour.channels; ++k) {
+            const double value =
+                inner_product(stored.subspan(k * columns, columns), lights_[i]);
+            for (std::size_t c = 0; c < 3; ++c) {
+                light.stored[i][c] +=
+                    double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * value;
+            }
+        }
+    }
+}
+
+BlockErrors ErrorMeter::errors(const std::array<PixelLight, 4>& pixels) {
+    BlockErrors sums;
+    for (std::size_t i = 0; i < kLightKinds * kLightsPerKind; ++i) {
+        ErrorSums& sum = sums[i / kLightsPerKind];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto error = [&](std::size_t p) {
+                return pixels[p].stored[i][c] - pixels[p].exact[i][c];
+            };
+            const auto value = [&](std::size_t p) { return pixels[p].exact[i][c]; };
+            for (std::size_t p = 0; p < pixels.size(); ++p) {
+                sum.error += error(p) * error(p);
+                sum.value += value(p) * value(p);
+            }
+            constexpr std::array<std::array<std::size_t, 2>, 4> kNeighbours{
+                {{0, 1}, {2, 3}, {0, 2}, {1, 3}}};
+            for (const auto& [a, b] : kNeighbours) {
+                sum.gradient_error += std::pow(error(b) - error(a), 2);
+                sum.gradient += std::pow(value(b) - value(a), 2);
+            }
+        }
+    }
+    return sums;
+}
+
+nlohmann::json json_from_errors(std::span<const BlockErrors> blocks) {
+    BlockErrors total;
+    for (const BlockErrors& block : blocks) {
+        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+            total[kind].add(block[kind]);
+        }
+    }
+    const auto json = [](const ErrorSums& sums) {
+        return nlohmann::json{{"relative_l2", relative(sums.error, sums.value)},
+                              {"relative_h1", relative(sums.gradient_error, sums.gradient)}};
+    };
+    return {{"natural", json(total[kNatural])}, {"sun", json(total[kSun])}};
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,61 @@
+// All blocks of one shard: rows, channels, integers, cells.
+#pragma once
+
+#include "precompute/bake/blocks/block_rows.h"
+#include "precompute/bake/blocks/error_meter.h"
+#include "precompute/bake/blocks/pilot.h"
+#include "precompute/bake/blocks/shard_notes.h"
+#include "precompute/bake/rows/row_baker.h"
+#include "precompute/bake/rows/tile_window.h"
+#include "protocol/transport/shard_writer.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace relume::bake {
+
+struct BakedShard {
+    std::vector<transport::EncodedBlock> blocks;
+    ShardNotes notes;
+    std::uint64_t rays = 0;
+};
+
+class ShardBaker {
+  public:
+    ShardBaker(const RowBaker& rows,
+               const TileWindow& window,
+               const transport::TileGrid& image,
+               const Quantisation& quantisation,
+               const BakeParameters& parameters);
+
+    // Called with pixels and rays done, by any thread; false stops the bake.
+    using Tick = std::function<bool(std::uint64_t pixels, std::uint64_t rays)>;
+
+    // The window has the rows of these blocks in reach. Throws BakeInterrupted.
+    [[nodiscard]] BakedShard bake(std::uint32_t first_block,
+                                  std::uint32_t block_count,
+                                  const Tick& tick) const;
+
+  private:
+    struct Scratch;
+    struct Block;
+
+    [[nodiscard]] BlockErrors measure(Block& block) const;
+    void bake_pixel(std::uint32_t x, std::uint32_t y, Block& block, Scratch& scratch) const;
+    [[nodiscard]] transport::EncodedBlock bake_block(std::uint32_t number,
+                                                     std::span<float> tint,
+                                                     BlockRows& rows,
+                                                     BlockErrors& errors,
+                                                     std::uint64_t& rays,
+                                                     const Tick& tick) const;
+
+    const RowBaker& rows_;
+    const TileWindow& window_;
+    PathPool pool_;
+    transport::TileGrid image_;
+    const Quantisation& quantisation_;
+    ErrorMeter meter_;
+};
+
+}  // namespace relume::bake

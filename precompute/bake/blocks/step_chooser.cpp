@@ -1,0 +1,172 @@
+#include "precompute/bake/blocks/step_chooser.h"
+
+#include "precompute/bake/blocks/light_model.h"
+#include "protocol/transport/block_basis.h"
+#include "protocol/transport/quantise.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace relume::bake {
+namespace {
+
+constexpr float kStepGrowth = 0.7F;  // β
+constexpr std::size_t kColumnsPerBand = 256;
+// Where [Ng03]'s levels happen to hit every value: no less than this, relative.
+constexpr double kFinestError = 1e-5;
+
+float largest(const std::array<float, transport::kBlockSize>& values) {
+    float most = 0;
+    for (const float value : values) {
+        most = std::max(most, std::abs(value));
+    }
+    return most;
+}
+
+// The largest step that holds, of those from a billionth of `high` to all of it.
+template <typename Holds>
+float largest_within(float high, Holds holds) {
+    constexpr float kRange = 0x1p-30F;
+    constexpr int kHalvings = 16;
+    high = std::max(high, std::numeric_limits<float>::min() / kRange);
+    float low = high * kRange;
+    for (int i = 0; i < kHalvings; ++i) {
+        const float middle = std::sqrt(low * high);
+        (holds(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+}  // namespace
+
+StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t tiles)
+    : basis_(basis), tiles_(tiles) {
+    const std::size_t count = basis.coefficient_count();
+    std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());
+    for (std::uint32_t j = 0; j < count; ++j) {
+        of_band[basis.band_from_coefficient(j)].push_back(j);
+    }
+    for (std::uint32_t band = 0; band < of_band.size(); ++band) {
+        const std::size_t all = of_band[band].size();
+        const std::size_t kept = std::min(all, kColumnsPerBand);
+        for (std::size_t i = 0; i < kept; ++i) {
+            columns_.push_back(
+                {.index = of_band[band][i * all / kept],
+                 .band = band,
+                 .weight = static_cast<double>(all) / static_cast<double>(kept)});
+        }
+    }
+    cells_.assign(columns_.size() * tiles_, Cell{});
+}
+
+void StepChooser::set_row(std::size_t tile, std::uint32_t slot, std::span<const float> row) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        cells_[i * tiles_ + tile][slot] = row[columns_[i].index];
+    }
+}
+
+template <typename Error>
+StepChooser::SquaredErrors StepChooser::sum_over_cells(Error error_of) const {
+    std::vector<double> errors(columns_.size());
+    tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t i) {
+        for (std::size_t tile = 0; tile < tiles_; ++tile) {
+            errors[i] += error_of(i, cells_[i * tiles_ + tile]);
+        }
+    });
+    SquaredErrors total;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const Column& column = columns_[i];
+        const double error = errors[i] * column.weight;
+        const double octave = basis_.octave_from_band(column.band);
+        total.natural += std::exp2(-2.0 * double{kNaturalFalloff} * octave) * error;
+        // A lone texel's coefficients have the same energy in every band.
+        total.lone_light += error;
+    }
+    return total;
+}
+
+// 2^bits levels over the range of each column, rounded to the nearest.
+StepChooser::SquaredErrors StepChooser::column_range_errors(std::uint32_t bits) const {
+    const auto levels = static_cast<float>((1U << (bits - 1)) - 1);
+    std::vector<float> steps(columns_.size(), 0.0F);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        for (std::size_t tile = 0; tile < tiles_; ++tile) {
+            steps[i] = std::max(steps[i], largest(cells_[i * tiles_ + tile]) / levels);
+        }
+    }
+    return sum_over_cells([&](std::size_t i, const Cell& cell) {
+        double error = 0;
+        for (const float value : cell) {
+            const float difference =
+                steps[i] > 0 ? value - steps[i] * std::round(value / steps[i]) : 0.0F;
+            error += double{difference} * double{difference};
+        }
+        return error;
+    });
+}
+
+template <typename Step>
+StepChooser::SquaredErrors StepChooser::errors(Step step) const {
+    return sum_over_cells([&](std::size_t i, const Cell& cell) {
+        const float size = step(columns_[i]);
+        double error = 0;
+        for (const float value : cell) {
+            const float difference =
+                value - size * static_cast<float>(transport::quantised(value / size));
+            error += double{difference} * double{difference};
+        }
+        return error;
+    });
+}
+
+std::vector<float> StepChooser::steps(std::uint32_t bits,
+                                      const transport::ColourModel& colour) {
+    SquaredErrors target = column_range_errors(bits);
+    const SquaredErrors energy = sum_over_cells([](std::size_t, const Cell& cell) {
+        double sum = 0;
+        for (const float value : cell) {
+            sum += double{value} * double{value};
+        }
+        return sum;
+    });
+    target.natural = std::max(target.natural, kFinestError * kFinestError * energy.natural);
+    target.lone_light =
+        std::max(target.lone_light, kFinestError * kFinestError * energy.lone_light);
+    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+        transport::block_coefficients_from_receivers(cells_[i]);
+    });
+    float high = 0;
+    for (const Cell& cell : cells_) {
+        high = std::max(high, largest(cell));
+    }
+    const auto growth = [this](std::uint32_t band) {
+        return std::exp2(kStepGrowth * basis_.octave_from_band(band));
+    };
+    const float scale = largest_within(high, [&](float candidate) {
+        return errors([&](const Column& column) {
+                   return candidate * growth(column.band);
+               }).natural < target.natural;
+    });
+    const float coarsest = largest_within(high, [&](float step) {
+        return errors([&](const Column&) { return step; }).lone_light < target.lone_light;
+    });
+    std::vector<float> steps;
+    for (std::size_t j = 0; j < basis_.coefficient_count(); ++j) {
+        const std::uint32_t band = basis_.band_from_coefficient(j);
+        for (std::uint32_t k = 0; k < colour.channels; ++k) {
+            // So that a channel's error weighs alike in the colours.
+            double norm = 0;
+            for (const auto& row : colour.matrix) {
+                norm += double{row[k]} * row[k];
+            }
+            steps.push_back(std::min(scale * growth(band), coarsest) *
+                            static_cast<float>(std::sqrt(3 / norm)));
+        }
+    }
+    return steps;
+}
+
+}  // namespace relume::bake

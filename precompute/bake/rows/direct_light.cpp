@@ -1,0 +1,196 @@
+#include "precompute/bake/rows/direct_light.h"
+
+#include "protocol/basis/cpu_clones.h"
+#include "protocol/transport/hash.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace relume::bake {
+namespace {
+
+// Where in the texels the rays of a pixel go, relative to another: spread evenly over any small
+// neighbourhood of pixels (Roberts' R2 sequence along both axes), so that what noise is left at
+// shadow edges is fine-grained.
+JitterShift jitter_shift(std::uint32_t x,
+                         std::uint32_t y,
+                         std::uint32_t surface,
+                         std::uint64_t seed) {
+    const double along = 0.7548776662466927 * x + 0.5698402909980532 * y;
+    const double across = 0.5698402909980532 * x + 0.2451223337533073 * y;
+    const auto fraction = [](double value) {
+        const double whole = static_cast<double>(static_cast<std::uint64_t>(value));
+        return std::min(static_cast<float>(value - whole), 0x1.fffffep-1F);
+    };
+    JitterShift shift;
+    const std::uint64_t key = transport::mix_bits(transport::mix_bits(seed) + surface);
+    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        // Each lane walks the sequence from a place and in an order of its own.
+        const std::uint64_t bits = transport::mix_bits(key + lane);
+        const auto stride = static_cast<double>(1 + 2 * lane);
+        shift.column[lane] = fraction(stride * along + transport::unit_float(bits));
+        shift.row[lane] = fraction(stride * across + transport::unit_float(bits << 32U));
+    }
+    return shift;
+}
+
+RELUME_CPU_CLONES void add_scaled(std::span<const float> source,
+                                  float factor,
+                                  std::span<float> target) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        target[i] += factor * source[i];
+    }
+}
+
+RELUME_CPU_CLONES void multiply(std::span<const float> factors, std::span<float> values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] *= factors[i];
+    }
+}
+
+// Their parts are added one by one.
+void leave_out_split_texels(Reflection& reflection) {
+    for (const SplitTexel& split : reflection.split) {
+        for (auto& plane : reflection.rgb) {
+            plane[split.place] = 0;
+        }
+    }
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const RayCaster& caster,
+                         const LightTexels& texels,
+                         std::uint32_t edge_samples)
+    : caster_(caster), texels_(texels), visibility_(caster, texels, edge_samples) {}
+
+void DirectLight::compute(const PixelView& view,
+                          std::uint32_t x,
+                          std::uint32_t y,
+                          std::uint64_t seed,
+                          TexelRow& row,
+                          Scratch& scratch) const {
+    scratch.open.resize(texels_.size());
+    scratch.scattered.resize(texels_.size());
+    row.is_grey = view.surfaces.empty() ||
+                  (view.surfaces.size() == 1 && view.surfaces[0].point.bsdf.is_diffuse());
+    row.colour = {0, 0, 0};
+    for (std::size_t c = 0; c < (row.is_grey ? 1U : 3U); ++c) {
+        row.plane[c].assign(texels_.size(), 0.0F);
+    }
+    for (std::uint32_t i = 0; i < view.surfaces.size(); ++i) {
+        const PixelSurface& surface = view.surfaces[i];
+        light_surface(surface, jitter_shift(x, y, i, seed), scratch);
+        Reflection& reflection = scratch.reflection;
+        const Imath::V3f colour = reflection.is_diffuse ? surface.point.bsdf.diffuse_colour() *
+                                                              surface.tint * surface.share
+                                                        : surface.tint * surface.share;
+        if (row.is_grey) {
+            texels_.scatter(reflection.grey, row.plane[0]);
+            row.colour = colour;
+            return;
+        }
+        if (reflection.is_diffuse) {
+            texels_.scatter(reflection.grey, scratch.scattered);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!reflection.is_diffuse) {
+                texels_.scatter(reflection.rgb[c], scratch.scattered);
+            }
+            add_scaled(scratch.scattered, colour[static_cast<int>(c)], row.plane[c]);
+        }
+    }
+}
+
+void DirectLight::light_surface(const PixelSurface& surface,
+                                const JitterShift& shift,
+                                Scratch& scratch) const {
+    Reflection& reflection = scratch.reflection;
+    if (surface.turns.empty()) {
+        reflect_light(texels_, surface.point, reflection);
+        leave_out_split_texels(reflection);
+    } else {
+        reflect_from_turns(surface, scratch);
+    }
+    std::vector<float>& open = scratch.open;
+    if (reflection.is_diffuse) {
+        visibility_.compute(surface.origins, surface.share, shift, reflection.grey, open,
+                            scratch.visibility);
+        multiply(open, reflection.grey);
+        return;
+    }
+    visibility_.compute(surface.origins, surface.share, shift, reflection.projected, open,
+                        scratch.visibility);
+    for (auto& plane : reflection.rgb) {
+        multiply(open, plane);
+    }
+    add_split_texels(surface, shift, scratch);
+}
+
+// The mean of the reflections of all turns.
+void DirectLight::reflect_from_turns(const PixelSurface& surface, Scratch& scratch) const {
+    const float each = 1 / static_cast<float>(surface.turns.size());
+    Reflection& sum = scratch.reflection;
+    Reflection& turn = scratch.turn;
+    sum.is_diffuse = surface.point.bsdf.is_diffuse();
+    sum.split.clear();
+    for (auto* plane : {&sum.grey, &sum.projected, &sum.rgb[0], &sum.rgb[1], &sum.rgb[2]}) {
+        plane->assign(texels_.size(), 0.0F);
+    }
+    for (const scene::SurfacePoint& point : surface.turns) {
+        reflect_light(texels_, point, turn);
+        if (sum.is_diffuse) {
+            add_scaled(turn.grey, each, sum.grey);
+            continue;
+        }
+        leave_out_split_texels(turn);
+        for (std::size_t c = 0; c < 3; ++c) {
+            add_scaled(turn.rgb[c], each, sum.rgb[c]);
+            for (SplitTexel& split : turn.split) {
+                for (float& part : split.rgb[c]) {
+                    part *= each;
+                }
+            }
+        }
+        for (std::size_t place = 0; place < sum.projected.size(); ++place) {
+            sum.projected[place] = std::max(sum.projected[place], turn.projected[place]);
+        }
+        sum.split.insert(sum.split.end(), turn.split.begin(), turn.split.end());
+    }
+}
+
+// Every part of a split texel has a ray of its own.
+void DirectLight::add_split_texels(const PixelSurface& surface,
+                                   const JitterShift& shift,
+                                   Scratch& scratch) const {
+    constexpr float kPart = 1.0F / LightTexels::kTileSide;
+    Reflection& reflection = scratch.reflection;
+    RayPacket packet(surface.origins);
+    for (const SplitTexel& split : reflection.split) {
+        std::uint32_t wanted = 0;
+        for (std::uint32_t part = 0; part < kPacketSize; ++part) {
+            const auto column = static_cast<float>(part % LightTexels::kTileSide);
+            const auto row = static_cast<float>(part / LightTexels::kTileSide);
+            const Imath::V3f d =
+                texels_.cube_point(split.place, (column + shift.column[part]) * kPart,
+                                   (row + shift.row[part]) * kPart);
+            packet.x()[part] = d.x;
+            packet.y()[part] = d.y;
+            packet.z()[part] = d.z;
+            const bool reflects =
+                split.rgb[0][part] + split.rgb[1][part] + split.rgb[2][part] > 0;
+            wanted |= reflects ? 1U << part : 0U;
+        }
+        const std::uint32_t free = caster_.unoccluded(packet, wanted);
+        scratch.visibility.rays += static_cast<std::uint64_t>(std::popcount(wanted));
+        for (std::size_t c = 0; c < 3; ++c) {
+            float total = 0;
+            for (std::uint32_t part = 0; part < kPacketSize; ++part) {
+                total += (free >> part) & 1U ? split.rgb[c][part] : 0.0F;
+            }
+            reflection.rgb[c][split.place] += total;
+        }
+    }
+}
+
+}  // namespace relume::bake

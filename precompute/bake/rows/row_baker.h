@@ -1,0 +1,66 @@
+// One pixel's transport, as coefficients of the light in red, green and blue.
+#pragma once
+
+#include "precompute/bake/rows/direct_light.h"
+#include "precompute/bake/rows/escape_projection.h"
+#include "precompute/bake/rows/path_pool.h"
+#include "protocol/basis/cubemap_projection.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace relume::bake {
+
+struct CoefficientRow {
+    std::array<std::vector<float>, 3> rgb;  // N values each
+    Imath::V3f direct_white{0, 0, 0};       // response to a white light, direct part
+    Imath::V3f white{0, 0, 0};              // all of it
+};
+
+class RowBaker {
+  public:
+    RowBaker(const RayCaster& caster,
+             const LightTexels& texels,
+             const BakeParameters& parameters);
+
+    [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
+
+    // One per thread.
+    struct Scratch {
+        DirectLight::Scratch direct;
+        TexelRow texels;
+        std::vector<float> grey;  // coefficients of a row without colour
+        EscapeSum escapes;
+        std::vector<Coefficient> coefficients;
+    };
+
+    // `pool` may be null: then the pixel's own paths are all there is.
+    void bake(const TracedPixel& pixel,
+              std::uint32_t x,
+              std::uint32_t y,
+              const PathPool* pool,
+              CoefficientRow& row,
+              Scratch& scratch) const;
+
+  private:
+    void add_indirect(const TracedPixel& pixel,
+                      std::uint32_t x,
+                      std::uint32_t y,
+                      const PathPool* pool,
+                      CoefficientRow& row,
+                      Scratch& scratch) const;
+
+    [[nodiscard]] Imath::V3f white_response(const CoefficientRow& row) const;
+
+    std::shared_ptr<const basis::CubemapProjection> projection_;
+    std::unique_ptr<const EscapeProjection> escapes_;
+    std::vector<basis::CubemapBasis::Term> constant_light_;
+    std::uint64_t seed_;
+    DirectLight direct_;
+};
+
+}  // namespace relume::bake

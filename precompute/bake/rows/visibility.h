@@ -1,0 +1,74 @@
+// How much of each texel of the light the surface in a pixel sees.
+//
+// One ray through every texel the surface could be lit from, jittered within the texel, from
+// one of sixteen places of the surface; where the neighbours of a texel disagree a shadow's
+// edge passes in the light or in the pixel, and more rays follow, from several of the places.
+// Which texels get more is decided by their neighbours alone, never by their own ray, so the
+// estimate stays unbiased; the rays of one texel are stratified over it.
+#pragma once
+
+#include "precompute/bake/rays/ray_caster.h"
+#include "precompute/bake/rows/light_texels.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relume::bake {
+
+// Moves the jitter of a point's texels, each part in [0, 1). One pair for each place of a
+// packet: texels that are neighbours are moved independently of each other.
+struct JitterShift {
+    std::array<float, kPacketSize> column{};
+    std::array<float, kPacketSize> row{};
+};
+
+class Visibility {
+  public:
+    // `edge_samples`: further rays per texel at shadow edges, at most.
+    Visibility(const RayCaster& caster, const LightTexels& texels, std::uint32_t edge_samples);
+
+    // Reused from point to point; one per thread.
+    struct Scratch {
+        std::vector<std::uint8_t> state;    // by texel, with a border round each face
+        std::vector<std::uint8_t> at_edge;  // flags of one row of texels
+        std::vector<std::uint32_t> edges;
+        std::array<std::vector<float>, 3> directions;
+        std::uint64_t rays = 0;  // cast so far
+    };
+
+    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. Edges get the
+    // part `share`, in (0, 1], of the further rays, one at least where there are any: what
+    // shows little of itself weighs little.
+    void compute(const std::array<Imath::V3f, kPacketSize>& origins,
+                 float share,
+                 const JitterShift& shift,
+                 std::span<const float> wanted,
+                 std::span<float> open,
+                 Scratch& scratch) const;
+
+  private:
+    void cast_first(RayPacket& packet,
+                    const JitterShift& shift,
+                    std::span<const float> wanted,
+                    std::span<float> open,
+                    Scratch& scratch) const;
+    void find_edges(Scratch& scratch) const;
+    // `extra` rays a texel.
+    void aim_at_edges(const JitterShift& shift, std::size_t extra, Scratch& scratch) const;
+    void refine_edges(RayPacket& packet,
+                      std::size_t extra,
+                      std::span<float> open,
+                      Scratch& scratch) const;
+
+    const RayCaster& caster_;
+    const LightTexels& texels_;
+    // Of the further rays: offsets from the first, modulo the texel.
+    std::vector<float> column_samples_;
+    std::vector<float> row_samples_;
+};
+
+}  // namespace relume::bake
