@@ -2,7 +2,7 @@
 import { type HexColour, hexFromLinear } from "./colour";
 import type { Triple } from "./wire/state";
 
-/** Range of the approximation to the Planckian locus [Kim02]. */
+/** Range of the approximation to the Planckian locus [Kang02]. */
 export const kCoolestKelvin = 1667;
 export const kHottestKelvin = 25000;
 
