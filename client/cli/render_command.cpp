@@ -127,8 +127,9 @@ void add_render_command(CLI::App& app) {
     command->add_option("--method", options->edits.method, "nwa, bi, pbi or guarded");
     command->add_option("--priority", options->edits.priority,
                         "area, none, transport or benefit");
-    auto* milliseconds = command->add_option("--budget-ms", options->edits.budget_ms,
-                                             "relighting time per image");
+    auto* milliseconds =
+        command->add_option("--budget-ms", options->edits.budget_ms,
+                            "milliseconds of an image, from edit to encoded picture");
     command->add_option("--coefficients", options->edits.coefficients, "coefficients per image")
         ->excludes(milliseconds);
     auto* exact = command->add_flag("--until-exact", options->until_exact,

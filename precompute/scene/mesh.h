@@ -1,4 +1,4 @@
-// Triangles of one material, in world space.
+// Triangles of one material, in the frame of their scene (WorldFrame).
 #pragma once
 
 #include <Imath/ImathVec.h>

@@ -1,4 +1,5 @@
-// A scene as the bake sees it: triangles in world space, materials, textures, one camera.
+// A scene as the bake sees it: triangles, materials, textures, one camera, and where they lie
+// in the world.
 #pragma once
 
 #include "precompute/scene/camera.h"

@@ -10,11 +10,11 @@ namespace relume::basis {
 // Of any basis. A set of bands is a mask of 32 bits.
 inline constexpr std::uint32_t kMaxBands = 20;
 
-// All that choosing needs to know of a basis.
+// All that the engine's choosing needs to know of a basis.
 struct Bands {
     std::vector<std::uint8_t> of_coefficient;  // [N], each below octaves.size()
-    // log₂ of a band's frequency relative to that of band 0: what falls off as a power of
-    // frequency in signal and transport falls off exponentially with it. [bands]
+    // log₂ of each band's frequency relative to that of band 0, [bands]. What falls off as a
+    // power of frequency falls off exponentially with the octave.
     std::vector<float> octaves;
 
     [[nodiscard]] std::size_t coefficient_count() const { return of_coefficient.size(); }

@@ -1,4 +1,4 @@
-// The basis that the lighting of a transport is written in: one noun, two kinds.
+// The basis in which the light of a transport is written: Haar wavelets or spherical harmonics.
 #pragma once
 
 #include "protocol/basis/bands.h"
@@ -37,15 +37,15 @@ class CubemapBasis {
 
     [[nodiscard]] std::size_t coefficient_count() const;
     [[nodiscard]] std::uint32_t band_count() const;
-    // In [0, band_count), not descending with the index for spherical harmonics.
+    // In [0, band_count). For spherical harmonics it never falls as the index rises.
     [[nodiscard]] std::uint32_t band_from_coefficient(std::size_t coefficient) const;
-    // log₂ of the band's angular frequency, relative to that of band 0: what falls off as a
-    // power of frequency in light and transport falls off exponentially with it.
+    // log₂ of the band's angular frequency, relative to that of band 0. What falls off as a
+    // power of frequency falls off exponentially with the octave.
     [[nodiscard]] float octave_from_band(std::uint32_t band) const;
 
     [[nodiscard]] Bands bands() const;
 
-    // Coefficients of radiance 1 from everywhere that are not zero, by index.
+    // Radiance 1 from everywhere: its coefficients that are not zero, by index.
     struct Term {
         std::uint32_t coefficient = 0;
         float value = 0;

@@ -2,9 +2,9 @@
 //
 // With Ω the solid angle of a texel and M(j, texel) the mean of basis function j over it, the
 // coefficients of light are Σ Ω·M·(mean radiance of the texel), those of transport
-// Σ M·(response to radiance 1 in the texel), so that Σ_j T_j L_j is the response to the light
-// as far as the basis holds it, and to a constant light exactly. For Haar both are the
-// transform of haar.h, whose functions are orthonormal over texels instead of over the sphere.
+// Σ M·(response to radiance 1 in the texel). Σ_j T_j L_j is then the response to the light as
+// far as the basis holds it, and to a constant light exactly. For Haar both projections are the
+// transform of haar.h, whose functions are orthonormal over texels and not over the sphere.
 #pragma once
 
 #include "protocol/basis/cubemap_basis.h"

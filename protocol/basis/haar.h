@@ -1,17 +1,17 @@
 // The 2-D non-standard Haar basis, orthonormal, one square face at a time [Ng03 §3,
 // Stollnitz95].
 //
-// Coefficients lie where Mallat's pyramid puts them, row-major in the n×n face: the scaling
-// coefficient at (0,0); the wavelets of level ℓ (ℓ = 0 is the coarsest, 2^ℓ×2^ℓ positions) in
-// the three squares of side 2^ℓ whose corners are (row 0, column 2^ℓ) differences along
-// columns, (2^ℓ, 0) differences along rows, (2^ℓ, 2^ℓ) both. One step maps a 2×2 cell
+// Coefficients lie where Mallat's pyramid puts them, row-major in the n×n face. The scaling
+// coefficient is at (0,0). The wavelets of level ℓ (ℓ = 0 is the coarsest, 2^ℓ×2^ℓ positions)
+// fill three squares of side 2^ℓ: differences along columns from (row 0, column 2^ℓ), along
+// rows from (2^ℓ, 0), along both from (2^ℓ, 2^ℓ). One step maps a 2×2 cell
 //     p q          (p+q+r+s)/2   (p−q+r−s)/2
 //     r s    to    (p+q−r−s)/2   (p−q−r+s)/2
 // and recurses on the averages. The transform is its own transpose's inverse, so
 // Σ_texels T·L = Σ_coefficients (HT)·(HL), and both have the same energy.
 //
 // Coefficient index j = face·n² + row·n + column. Band b holds the wavelets of level b;
-// band 0 holds the scaling functions too (they are what stays when all else is reset).
+// band 0 holds the scaling functions too.
 #pragma once
 
 #include <cstddef>

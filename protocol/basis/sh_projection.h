@@ -10,11 +10,11 @@
 
 namespace relume::basis {
 
-// A spherical harmonic is even or odd under each of the mirrors x, y, z → −x, −y, −z, and so is
-// the cube: means over texels are kept for one octant alone (4.9 MB at order 20, n = 64), and
-// the eight mirror images of a texel are first added up with the signs of every parity, so that
-// a projection takes an eighth of the products. Means are integrals by Gauss's rule with 4×4
-// points on each cell of a face cut into 64×64 cells or finer.
+// A spherical harmonic is even or odd under each of the mirrors x, y, z → −x, −y, −z, and the
+// cubemap is symmetric under them. So means over texels are kept for one octant alone (4.9 MB
+// at order 20, n = 64). A projection first adds up the eight mirror images of a texel with the
+// signs of every parity, and then takes an eighth of the products. Means are integrals by
+// Gauss's rule with 4×4 points on each cell of a face that is cut into 64×64 cells or finer.
 class ShProjection final : public CubemapProjection {
   public:
     // `basis` is of spherical harmonics.

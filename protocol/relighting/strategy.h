@@ -11,7 +11,7 @@ namespace relume::relighting {
 
 // What happens to the approximation when the signal changes: README of server/engine.
 //   nwa      begins anew with every image              [Ng03]
-//   bi       is kept                                   [Overbeck06 §4]
+//   bi       is kept                                   [Overbeck06 §3]
 //   pbi      is kept or begins anew, band by band      [Overbeck06 §5]
 //   guarded  pbi, whose resets are taken only where they make the image's error smaller
 enum class Method : std::uint8_t { nwa, bi, pbi, guarded };

@@ -1,14 +1,15 @@
 // The basis in which a block's 256 receivers are stored.
 //
-// Of pixel tiles it is the orthonormal 2-D Haar basis of the 16×16 tile. Neighbouring pixels
-// see much the same of the light, so that most coefficients of a column vanish, where hardly a
-// pixel does; and as the image is linear in them, it is summed in this basis and transformed
-// once.
+// Tiles of pixels are stored in the orthonormal 2-D Haar basis of the 16×16 tile. Neighbouring
+// pixels see much the same of the light. So most Haar coefficients of a column vanish, although
+// hardly any of its pixel values does. The image is linear in the coefficients; it is summed in
+// this basis, and each block is transformed back once.
 //
-// From the coarsest to the finest, the three wavelets of one place side by side, places in
-// Z-order: slot 0 holds the scaling coefficient, slots 4^ℓ + 3·z(column, row) + 0, 1, 2 the
-// wavelets along columns, along rows and along both of level ℓ (basis/haar.h). What is not zero
-// comes in clusters, and so fills fewer strips than in the order of the pyramid.
+// Coefficients lie from the coarsest level to the finest. Slot 0 holds the scaling coefficient.
+// Slots 4^ℓ + 3·z(column, row) + 0, 1, 2 hold the wavelets of level ℓ (basis/haar.h) at one
+// place: along columns, along rows, along both. Within a level places are in Z-order. Non-zero
+// coefficients come in clusters, which fill fewer strips of eight slots in this order than in
+// that of the pyramid.
 #pragma once
 
 #include "protocol/transport/format.h"
@@ -29,7 +30,7 @@ namespace relume::transport {
     return z;
 }
 
-// Of every slot.
+// The Z-order of every slot's pixel.
 inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
     std::array<std::uint8_t, kBlockSize> order{};
     for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
@@ -41,7 +42,8 @@ inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
 // Which of the bases below a transport's blocks are stored in.
 enum class BlockBasis : std::uint8_t { haar_tile };
 
-// In place, slots to coefficients of haar_tile and back.
+// From the values of a block's receivers, by slot, to coefficients of haar_tile, and back; in
+// place.
 void block_coefficients_from_receivers(std::span<float, kBlockSize> values);
 void block_receivers_from_coefficients(std::span<float, kBlockSize> values);
 

@@ -18,8 +18,8 @@ struct CameraRecord {
     float tan_half_width = 1;
     float tan_half_height = 1;
 
-    // Unit direction through the image point (x, y) in pixels, the first pixel's centre being
-    // (0.5, 0.5), of an image of width×height.
+    // Unit direction through the point (x, y) of the image, in pixels. The centre of the first
+    // pixel is (0.5, 0.5).
     [[nodiscard]] Imath::V3f direction_from_pixel(float x,
                                                   float y,
                                                   const TileGrid& image) const;

@@ -18,9 +18,9 @@ struct ColumnSummary {
     SketchTable choosing;
 };
 
-// Steps [N][K], tint [blocks][3][256]. Parallel over columns; the same result on any number of
-// threads. Throws TransportError when a column passes 4 GiB.
-// The sketches are of independent rows and signs.
+// `steps` is [N][K], `tint` [blocks][3][256]. Parallel over columns; the same result on any
+// number of threads. The two sketches have independent rows and signs. Throws TransportError
+// when a column passes 4 GiB.
 [[nodiscard]] ColumnSummary summarise_columns(const Manifest& manifest,
                                               std::span<const ShardReader> shards,
                                               std::span<const float> steps,

@@ -22,9 +22,10 @@
 
 namespace relume::transport {
 
-// What a transport takes its signal to, and so which sections its manifest has.
-//   image   light to the pixels of one camera: sections image, basis, camera; blocks are pixel
-//           tiles in their Haar basis, and an image has one term
+// What the signal and the receivers of a transport are. The kind decides which sections its
+// manifest has.
+//   image   from light to the pixels of one camera: sections image, basis and camera; a block
+//           is a tile of pixels, stored in the tile's Haar basis
 enum class Kind : std::uint8_t { image };
 
 inline constexpr text::NameTable<Kind, 1> kKindNames({{
@@ -49,9 +50,9 @@ struct ShardRecord {
     std::uint32_t block_count = 0;
 };
 
-// Relative L2 error that the bake's sampling leaves in an image, over the pixels that see the
-// scene, root mean square over lights of a kind: maps that fall off as photographed ones do,
-// and one texel of sun.
+// The relative L2 error that the bake's sampling leaves in an image, over the pixels that see
+// the scene, as the root mean square over lights of one kind. Natural lights fall off with
+// frequency as photographed maps do; a sun is one bright texel.
 struct SamplingError {
     double natural = 0;
     double sun = 0;
@@ -85,7 +86,7 @@ struct Manifest {
         return static_cast<std::uint32_t>(signal_basis.coefficient_count());
     }
     [[nodiscard]] std::uint32_t block_count() const { return layout.block_count(); }
-    // Of kind image: its pixels.
+    // Of kind `image`: how its pixels lie in tiles.
     [[nodiscard]] const TileGrid& image() const { return layout.tiles(); }
 };
 

@@ -1,8 +1,8 @@
 // Quantisation with a wide dead zone: q = round(v/step), but 0 where |v| is below 1.6 steps.
 //
-// A value takes a byte however small it is, so fine steps cost nothing but few values do: at
-// equal error, steps half as large with a zone of 1.6 leave 13 % fewer values than rounding
-// with one of 0.6 (README).
+// A value takes a byte however large it is, so that only the number of values costs, and fine
+// steps are free. At equal error, steps half as large with a zone of 1.6 leave 13 % fewer
+// values than steps with a zone of 0.6.
 //
 // Nothing is dithered: values are coefficients of a block (block_basis.h), whose errors
 // spread over the block as they are, and random rounding would double their energy.

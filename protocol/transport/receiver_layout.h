@@ -16,8 +16,8 @@ struct ReceiverPlace {
     friend bool operator==(const ReceiverPlace&, const ReceiverPlace&) = default;
 };
 
-// Pixels of an image in tiles of 16×16, row by row from the top left; a tile is a block, and
-// those at the right and lower edge have slots that are no pixel's.
+// Pixels of an image in tiles of 16×16, row by row from the top left. A tile is a block; tiles
+// at the right and lower edge have slots without a pixel.
 struct TileGrid {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -38,7 +38,8 @@ struct TileGrid {
     friend bool operator==(const TileGrid&, const TileGrid&) = default;
 };
 
-// A value. What knows nothing of pixels asks it alone; what makes an image asks for the tiles.
+// A value. Code that knows nothing of pixels asks for receivers, blocks and slots; code that
+// makes an image asks for the tiles as well.
 class ReceiverLayout {
   public:
     // Receiver y·width + x is pixel (x, y). At least one pixel.
@@ -52,11 +53,11 @@ class ReceiverLayout {
         return std::size_t{tiles_.width} * tiles_.height;
     }
     [[nodiscard]] constexpr std::uint32_t block_count() const { return tiles_.block_count(); }
-    // Slots of all blocks, receivers or not.
+    // Slots of all blocks, with and without a receiver.
     [[nodiscard]] constexpr std::size_t slot_count() const {
         return std::size_t{block_count()} * kBlockSize;
     }
-    // Of a receiver below receiver_count().
+    // Where a receiver, below receiver_count(), is stored.
     [[nodiscard]] constexpr ReceiverPlace place(std::size_t receiver) const {
         return tiles_.place_from_pixel(static_cast<std::uint32_t>(receiver % tiles_.width),
                                        static_cast<std::uint32_t>(receiver / tiles_.width));

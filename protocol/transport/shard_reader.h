@@ -1,4 +1,4 @@
-// One mapped shard, checked once and handed out as segments that need no further check.
+// One shard, read and checked once, and handed out as segments that need no further check.
 #pragma once
 
 #include "protocol/transport/cell.h"
@@ -24,7 +24,7 @@ struct CellStatistics {
 // Immutable; safe to read from any thread.
 class ShardReader {
   public:
-    // Maps the file and checks header, index and data down to every cell. Throws
+    // Reads the file and checks header, index and data down to every cell. Throws
     // TransportError naming file and section.
     explicit ShardReader(const std::filesystem::path& path);
 

@@ -9,7 +9,7 @@
 
 namespace relume::transport {
 
-// Random combinations of the rows of the transport: S·T, `rows()` numbers a column and colour.
+// S·T, a random matrix S times the transport: `rows()` numbers for each column and colour.
 class Sketch {
   public:
     Sketch() = default;
@@ -20,7 +20,7 @@ class Sketch {
         : rows_(rows), scales_(scales), values_(values) {}
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
-    // Integers, times the scale.
+    // Integers; times scale(column, colour) they are the numbers.
     [[nodiscard]] std::span<const std::int8_t> values(std::size_t column,
                                                       std::uint32_t colour) const {
         return values_.subspan(first_value(column, colour), rows_);

@@ -19,10 +19,10 @@ struct SketchTable {
     [[nodiscard]] Sketch view() const { return {rows, scales, values}; }
 };
 
-// A count sketch [Charikar02]: every receiver adds to one of R rows with one sign, so that a
-// column costs one addition per value, R times fewer than dense random signs, and the estimate
-// of ‖T ΔL‖² that it gives is unbiased with relative variance at most 2/R, as theirs.
-// Immutable; safe to share between threads.
+// A count sketch [Charikar02]: every receiver adds to one of R rows with one sign. So a column
+// costs one addition for each value, where a dense matrix of random signs costs R. The estimate
+// of ‖T ΔL‖² is unbiased, with a relative variance of at most 2/R, like that of the dense
+// matrix. Immutable; safe to share between threads.
 class SketchPlan {
   public:
     // Row and sign of receiver p follow from seed and p alone; seeds that differ give
@@ -49,10 +49,10 @@ class ColumnSketch {
     explicit ColumnSketch(const SketchPlan& plan);
 
     void clear();
-    // Tint applied.
+    // Adds the value of one receiver, tint applied.
     void add(std::size_t colour, std::size_t receiver, double value);
-    // Rounds to 8 bits, the largest value of each colour to the largest integer: noise of a
-    // hundredth of the value, where the estimate itself is good to a twentieth.
+    // Rounds to 8 bits, so that the largest value of each colour becomes the largest integer.
+    // That adds noise of a hundredth, where the estimate itself is good to a twentieth.
     void store(std::size_t column, SketchTable& table) const;
 
   private:

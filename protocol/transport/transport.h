@@ -17,7 +17,7 @@ namespace relume::transport {
 // Safe to share between threads.
 class Transport {
   public:
-    // Maps and checks all of it, in parallel. Throws TransportError naming file and section.
+    // Reads and checks all of it, in parallel. Throws TransportError naming file and section.
     [[nodiscard]] static std::shared_ptr<const Transport> open(
         const std::filesystem::path& directory);
 
@@ -49,8 +49,8 @@ class Transport {
     // [blocks][3][256].
     [[nodiscard]] std::span<const float> tint() const { return tint_; }
 
-    // Two sketches of independent rows: what is chosen by the one is stated by the other, for
-    // rows that have been minimised over are no unbiased witness any more.
+    // Two sketches of independent rows: by one a server chooses what to do, by the other it
+    // states its error. An estimate that has been minimised over is biased.
     [[nodiscard]] const Sketch& stating_sketch() const { return stating_sketch_; }
     [[nodiscard]] const Sketch& choosing_sketch() const { return choosing_sketch_; }
 

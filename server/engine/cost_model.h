@@ -1,5 +1,5 @@
-// What an image costs, measured while it runs: so much per byte of columns touched, and the
-// rest.
+// What an image costs: some time for every byte of its columns, and an overhead. Both are
+// measured while images are made.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ class CostModel {
     void record_columns(std::uint64_t bytes, double milliseconds);
     void record_overhead(double milliseconds);
 
-    // Bytes of columns that fit beside the overhead into a session's share of so many
-    // milliseconds, in which several sessions do the same on the threads of the caller's arena.
+    // Bytes of columns that one of so many sessions can take when all of them together have
+    // `milliseconds`, overheads included, on the threads of the caller's arena.
     [[nodiscard]] std::uint64_t bytes_within(double milliseconds, std::size_t sessions) const;
 
   private:

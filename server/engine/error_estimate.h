@@ -10,20 +10,20 @@
 namespace relume::engine {
 
 // Keeps S·T·L and S·T·L̃ for the stating rows S, in double precision. The estimate
-// ‖S T (L − L̃)‖ / ‖S T L‖ has a relative standard deviation of about 1/√(2R) to 1/√(6R), as the
-// colours are alike or not. The rows only state; nothing is chosen by them, for what is
-// minimised is no longer an unbiased witness. Not thread-safe.
+// ‖S T (L − L̃)‖ / ‖S T L‖ has a relative standard deviation of about 1/√(2R) where the colours
+// are alike, down to 1/√(6R) where they are not. Nothing is chosen by these rows, because an
+// estimate that has been minimised over is biased. Not thread-safe.
 class ErrorEstimate {
   public:
     explicit ErrorEstimate(const ColumnTable& table);
 
-    // A target need hold only what counts of it; what is shown must be whole, for it may be far
-    // brighter than the next target.
+    // A target may lack columns that hardly count. The approximation must have all of its
+    // columns, because it may be far brighter than the next target.
     void set_target(const SignificantColumns& target) { target_.set(target); }
     void set_approximation(const SignificantColumns& shown) { approximation_.set(shown); }
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { approximation_.apply(plan); }
-    // L̃ is now this target, whole.
+    // L̃ has been set to this target as a whole.
     void approximation_is_target(const SignificantColumns& target) {
         target_.set(target);
         approximation_ = target_;

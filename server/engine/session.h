@@ -24,7 +24,7 @@ struct StepReport {
     std::uint32_t remaining = 0;  // coefficients in which approximation and target still differ
     std::uint32_t bands_reset = 0;  // bit b: band b was reset
     std::uint64_t bytes_touched = 0;
-    std::uint64_t band_bytes = 0;  // of memory, so that bands can begin anew
+    std::uint64_t band_bytes = 0;  // BandSums::bytes_of_bands
     double stated_error = 0;       // relative L2 of the image, estimated; 0 when exact
     bool image_changed = false;
     bool exact = false;
@@ -35,50 +35,54 @@ class Session;
 // A session's part in a step that several take together.
 struct SessionStep {
     Session* session = nullptr;
-    relighting::Budget budget;  // milliseconds: of the whole step, all sessions in it
-    // Of one call, however large the budget: the call ends about then, by what such work has
-    // been taking, and the next call goes on with what is left of the budget.
+    relighting::Budget budget;  // its milliseconds are for all sessions of the step together
+    // The longest that one call takes, whatever the budget. The call ends about then, judged by
+    // what such work has taken so far; the next call goes on.
     double ceiling_milliseconds = std::numeric_limits<double>::infinity();
     StepReport report;  // what it did
 };
 
-// Not thread-safe: one thread at a time calls it; inside, work is spread over oneTBB's arena of
-// the caller. The image depends only on the history of calls, not on the number of threads nor
-// on who was relit together; an exact image depends on the signal alone, to the last bit.
+// Not thread-safe: one thread at a time calls it. Its work is spread over the caller's oneTBB
+// arena. The image depends on the history of calls, not on the number of threads nor on the
+// sessions that are relit together with it. An exact image depends on the signal alone, to the
+// last bit.
 class Session {
   public:
     Session(std::shared_ptr<const Workspace> workspace, relighting::Strategy strategy);
 
-    // Target signal: coefficients of radiance in the basis of the scene, planar [3][N], all
-    // of at most kLargestCoefficient (throws std::invalid_argument otherwise, or when the count
-    // is wrong; the session is unchanged).
+    // The signal that is asked for: coefficients in the operator's basis, planar [3][N], each
+    // of at most kLargestCoefficient. Throws std::invalid_argument for others or another count,
+    // and leaves the session as it was.
     void set_target(std::span<const float> coefficients);
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(relighting::Strategy strategy) { strategy_ = strategy; }
 
-    // One image's worth of work. New signal: the method's resets, then the most important
-    // differences between target and approximation within the budget. While the signal rests:
-    // more of them, and then (at once, where it takes only a few images' time) the *full
-    // product* in slices of the budget, after which the image is exact and has forgotten its
-    // history. Where the full product fits into one image's milliseconds, every image is
-    // exact. Costs nothing when exact.
+    // One image's worth of work.
+    // - After a new target: the method's resets, then the most important differences between
+    //   target and approximation within the budget.
+    // - While the target rests: more of these differences; then, or at once where it takes only
+    //   a few images' time, the *full product* in slices of the budget. The image is exact
+    //   after that, and a function of the target alone.
+    // - Where the full product fits into one image's milliseconds, every image is exact.
+    // - Costs nothing when the image is exact.
     StepReport advance(const relighting::Budget& budget);
 
-    // The same for each of several sessions of one scene, no two the same, in one sweep over
-    // the transport: what they have in common is read and decoded once. Milliseconds are shared
-    // alike. Under a budget of coefficients every session gets the bits it would get alone.
+    // The same for each of several sessions of one workspace, no two the same, in one sweep
+    // over the transport: columns that several of them use are read and decoded once.
+    // Milliseconds are divided equally. Under a budget of coefficients every session gets the
+    // bits that it would get alone.
     static void advance_together(std::span<SessionStep> steps);
 
-    // One image's worth of the method alone, under a budget of columns and bytes: what
-    // `advance` does before it turns to the full product.
+    // One image's worth of the method alone, never the full product, under a budget of columns
+    // and bytes.
     StepReport advance_incrementally(const SelectionBudget& budget);
 
-    // True when `advance` has nothing left to do under this budget: exact, or the target error
-    // is met.
+    // Whether `advance` has nothing left to do under this budget: the image is exact, or meets
+    // the target error.
     [[nodiscard]] bool at_rest(const relighting::Budget& budget) const;
     [[nodiscard]] bool exact() const { return exact_; }
-    // A full product of a new signal was begun under a ceiling and is not done: until then
-    // image and stated error are of the signal before.
+    // Whether image and stated error are still those of the target before: a full product of
+    // the new target has begun under a ceiling and is not done.
     [[nodiscard]] bool shows_target_before() const {
         return target_is_new_ && full_product_.running();
     }
@@ -89,17 +93,18 @@ class Session {
     [[nodiscard]] std::span<const float> approximation() const {
         return signal_.approximation();
     }
-    // What the image is made of, as TransportOperator: [blocks][3][256].
+    // What a view makes the image of: [blocks][3][256], as TransportOperator says.
     [[nodiscard]] std::span<const float> sums() const { return sums_.total(); }
 
   private:
-    // What a step is about to do. The plan is the planner's, until it chooses again.
+    // What a step is about to do. The plan belongs to the planner and is valid until it chooses
+    // again.
     enum class Work : std::uint8_t { nothing, plan, full_product };
     struct Decision {
         Work work = Work::nothing;
         const Plan* plan = nullptr;
     };
-    // What a session may take of a step that several take together.
+    // What a session may take in a step that several sessions take together.
     struct Allowance {
         relighting::Budget budget;
         std::size_t sessions = 1;  // among which its milliseconds are divided
@@ -116,9 +121,9 @@ class Session {
         StepReport* report;
     };
     static void carry_out(std::span<const PlannedStep> steps);
-    // Leaves out so little of the target that it does not show beside such an error.
+    // Gives the estimates the target without columns that do not show beside such an error.
     void set_target_of_estimates(double expected_error);
-    // Takes in more of it where the error has become smaller than was expected.
+    // Gives them more of its columns where the error has become smaller than expected.
     void refine_estimates();
     void plan_is_carried_out(const Plan& plan, StepReport& report);
     static void advance_full_products(std::span<SessionStep* const> steps,
@@ -139,17 +144,16 @@ class Session {
     Planner planner_;
     BandSums sums_;
     ErrorEstimate error_;
-    // Columns that are chosen, and the full product, of which sessions share more.
-    CostModel cost_;
-    CostModel product_cost_;
+    CostModel cost_;          // of columns that are chosen
+    CostModel product_cost_;  // of the full product, of which sessions share more
     FullProduct full_product_;
     TransportOperator::Weights renewing_weights_;  // none until a band has drifted
     std::uint32_t remaining_ = 0;
-    double negligible_ = kSurelyNegligible;  // of the target, in the estimates
+    double negligible_ = kSurelyNegligible;  // the part of the target that estimates leave out
     bool target_is_new_ = false;
-    // Error and choosing sketch do not know the approximation: it was made exact without them.
+    // The approximation was made exact without telling the stating and the choosing sketch.
     bool estimates_are_stale_ = false;
-    bool exact_ = true;  // a session begins with no light and a black image
+    bool exact_ = true;  // a session begins with a zero target and zero sums
 };
 
 }  // namespace relume::engine

@@ -9,8 +9,8 @@
 
 namespace relume::engine {
 
-// The operator, and the sums that its sessions lend one another. Immutable but for what it
-// lends; safe to share between threads.
+// The operator, and spare sums that its sessions borrow in turn. Only the spare sums change;
+// safe to share between threads.
 class Workspace {
   public:
     // Not null.
@@ -19,7 +19,7 @@ class Workspace {
 
     [[nodiscard]] const TransportOperator& transport_operator() const { return *operator_; }
     [[nodiscard]] const ColumnTable& columns() const { return operator_->columns(); }
-    // Where sessions borrow the sums that they make whole products in.
+    // The sums in which sessions make whole products.
     [[nodiscard]] SpareSums& spare_sums() const { return spare_sums_; }
 
   private:

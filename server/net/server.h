@@ -10,7 +10,7 @@ namespace relume::net {
 
 class Metrics;
 
-// A server listens and opens scenes from its construction on, and ends with its destruction.
+// A server listens and opens scenes from its construction on, and ends when it is destroyed.
 // Its functions may be called from any thread.
 class Server {
   public:

@@ -40,9 +40,9 @@ class Visibility {
         std::uint64_t rays = 0;  // cast so far
     };
 
-    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. Edges get the
-    // part `share`, in (0, 1], of the further rays, one at least where there are any: what
-    // shows little of itself weighs little.
+    // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. A texel at a
+    // shadow edge gets the part `share`, in (0, 1], of the further rays, rounded up. `share` is
+    // that of the surface in its pixel: the less the surface fills, the less its error weighs.
     void compute(const std::array<Imath::V3f, kPacketSize>& origins,
                  float share,
                  const JitterShift& shift,

@@ -29,7 +29,7 @@ using AreaLights = std::map<std::string, AreaLight>;
 [[nodiscard]] bool any_solo(const AreaLights& lights);
 // A light that is muted never lights.
 [[nodiscard]] bool lights_now(const AreaLight& light, bool any_solo);
-// What a new light is where its patch does not say: the last in lists.
+// What a new light has where its patch does not say: defaults, and an order after all others.
 [[nodiscard]] AreaLight fresh_light(const AreaLights& others);
 
 inline constexpr Range kLightOrder{-1e9, 1e9};

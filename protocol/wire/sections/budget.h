@@ -6,7 +6,8 @@
 
 namespace relume::wire {
 
-// As many columns as a scene has at most, in the largest basis; a test holds the two together.
+// The most columns that a scene can have, which is the count of the largest basis. A test
+// compares the two.
 inline constexpr std::uint32_t kMostColumns = 393216;
 
 inline constexpr std::array kBudgetFields{

@@ -1,8 +1,8 @@
 // One field of a section of the room's state, described once: how it is read out of the struct
 // that holds it and put there, what JSON it takes, and what it means.
 //
-// Descriptions are constants. What reads and writes JSON by them is field_json.h; what writes
-// the contract's table and the page's types is described.h.
+// Descriptions are constants. field_json.h reads and writes JSON by them; ../describe writes
+// the contract's table and the page's types from them.
 #pragma once
 
 #include "protocol/base/text/name_table.h"

@@ -13,13 +13,15 @@ namespace relume::wire {
 // Null for none.
 [[nodiscard]] nlohmann::json json_from_value(const FieldValue& value);
 
-// What the rule makes of JSON that a patch states: null only for an optional field, directions
-// and quaternions normalised. Throws WireError{wrong_type} or {out_of_range} at `path`.
+// The value that a patch states as JSON, checked by the rule. Null is taken only for an
+// optional field; directions and quaternions are normalised. Throws WireError{wrong_type} or
+// {out_of_range} at `path`.
 [[nodiscard]] FieldValue value_from_json(const FieldRule& rule,
                                          const nlohmann::json& value,
                                          const std::string& path);
 
-// How a normalised patch states `value`, which was read from `stated`: triples as they came.
+// The JSON by which a normalised patch states `value`, which was read from `stated`. Triples
+// stay as they were stated.
 [[nodiscard]] nlohmann::json normal_form(const FieldRule& rule,
                                          const FieldValue& value,
                                          const nlohmann::json& stated);

@@ -1,5 +1,5 @@
-// A section of the room's state, described once: its name, what an edit of it touches, its
-// fields.
+// A section of the room's state, described once: its key, the stage that an edit of it touches,
+// and its fields.
 #pragma once
 
 #include "protocol/wire/limits.h"
@@ -13,14 +13,16 @@
 
 namespace relume::wire {
 
-// Numbers, each 0 where it is not given, that a patch may state in place of a section's fields.
+// Numbers that a patch may state in place of a section's fields, such as three angles in place
+// of a quaternion. A number that is not given is 0.
 template <typename Owner>
 struct Spelling {
     std::span<const FieldRule> fields;
     Owner (*meaning)(std::span<const double> numbers) = nullptr;
 };
 
-// An object of the state's JSON that `Owner` holds. A default-constructed Owner is the default.
+// An object of the state's JSON, which the struct `Owner` holds. A default-constructed Owner is
+// its default.
 template <typename Owner>
 struct Section {
     std::string_view key;
@@ -30,7 +32,8 @@ struct Section {
     Spelling<Owner> spelling{};
 };
 
-// An object of objects by id: a null takes one away, an id that is not there makes a new one.
+// An object of entries by id. In a patch a null takes an entry away, and an id that is not
+// there makes a new one.
 template <typename Entry>
 struct KeyedSection {
     Section<Entry> entry;    // its key and stage are the section's

@@ -1,9 +1,9 @@
 // A signal as the sketch of the transport sees it: S·T·L, band by band.
 #pragma once
 
+#include "server/engine/columns/column_table.h"
 #include "server/engine/columns/plan.h"
 #include "server/engine/columns/significant_columns.h"
-#include "server/engine/columns/column_table.h"
 
 #include <cstdint>
 #include <span>
@@ -11,24 +11,25 @@
 
 namespace relume::engine {
 
-// [bands][3][rows] numbers. Updates are added in double precision, so that a light of 10⁵ that
-// came and went leaves nothing behind. Not thread-safe.
+// Holds [bands][3][rows] numbers in double precision, so that a light of 10⁵ that comes and
+// goes leaves no visible rounding behind. Not thread-safe.
 class BandSketches {
   public:
     BandSketches(const ColumnTable& table, const transport::Sketch& sketch);
 
-    // Of these columns: one pass over the sketch, spread over the caller's arena with a result
-    // that does not depend on it.
+    // Makes the sketch of these columns from nothing, in one pass that is spread over the
+    // caller's arena. The result does not depend on the number of threads.
     void set(const SignificantColumns& lit);
-    // The signal has changed in this way.
+    // Follows a change of the signal: the plan has been carried out on it.
     void apply(const Plan& plan);
 
     // [3][rows].
     [[nodiscard]] std::span<const double> band(std::uint32_t band) const {
         return std::span(bands_).subspan(band * size_, size_);
     }
-    // 3·rows, and row r of all bands together.
+    // Numbers of one band, 3·rows.
     [[nodiscard]] std::size_t size() const { return size_; }
+    // Number r, below size(), summed over all bands.
     [[nodiscard]] double sum(std::size_t r) const;
 
   private:

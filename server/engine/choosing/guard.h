@@ -1,4 +1,4 @@
-// Deciding between incrementing and beginning anew by the error each would leave in the image.
+// The decision which bands begin anew, by the error that each choice would leave in the image.
 #pragma once
 
 #include "server/engine/choosing/band_sketches.h"
@@ -15,19 +15,20 @@
 
 namespace relume::engine {
 
-// For sets of bands that might begin anew, selects what the budget allows and predicts
-// ‖T (L − L̃)‖ after it from the choosing rows of the transport's sketch; the least wins.
-// Weighed are: to go on, PBI's resets [Overbeck06 §5], all bands, and, from the best of these
-// on, every set that differs by one band, for as long as that gets better. Rows of their own,
-// so that the stated error stays an unbiased witness of what was chosen.
+// A candidate is a set of bands that begin anew, with the columns that the budget then allows.
+// The guard predicts the error ‖T (L − L̃)‖ after each candidate from the choosing sketch, and
+// takes the one with the least. It weighs no band, the bands that PBI resets [Overbeck06 §5],
+// and all bands. From the best of these it goes on to every set that differs by one band, for
+// as long as the error falls. The choosing sketch has rows of its own, so that the estimate by
+// the stating sketch stays unbiased.
 //
 // Bands begin anew only where that brings the image nearer to the target than it stands, and
-// never while the light rests. An increment may make the image worse, columns not being
-// orthogonal, and is still a step home; to reset a band and restore it would look better, and
-// be to stand still for ever.
+// never while the signal rests. Columns are not orthogonal, so an increment can make the image
+// worse; but it brings L̃ nearer to L, and increments come to an end. To reset a band and to
+// restore it could look better every time, and would never end.
 //
-// Not thread-safe; candidates are worked out side by side in the caller's arena, and the result
-// does not depend on it.
+// Not thread-safe. Candidates are worked out side by side in the caller's arena; the result
+// does not depend on the number of threads.
 class Guard {
   public:
     struct Candidate {
@@ -37,14 +38,15 @@ class Guard {
 
     explicit Guard(const ColumnTable& table);
 
-    // `ranking` and `lit`, what counts of the target, are of this signal. The best plan;
-    // valid until the next call. Of equal predictions the first wins, increments before resets.
+    // The best plan, valid until the next call. `ranking` is of this signal, and `lit` has the
+    // columns of its target that count. Of equal predictions the first wins, increments before
+    // resets.
     [[nodiscard]] const Plan& decide(const SignalState& signal,
                                      const SignificantColumns& lit,
                                      Ranking& ranking,
                                      const SelectionBudget& budget);
-    // What was weighed by the last decision, to go on first. A candidate that resets is
-    // eligible when its error is less than `standing_error`.
+    // What the last decision weighed; the first candidate resets no band. A candidate that
+    // resets bands can win only if its error is less than `standing_error`.
     [[nodiscard]] std::span<const Candidate> candidates() const {
         return std::span(candidates_).first(candidate_count_);
     }
@@ -52,11 +54,11 @@ class Guard {
     // Estimated ‖T (L − L̃)‖ at the last decision, before any plan.
     [[nodiscard]] double standing_error() const { return standing_error_; }
 
-    // The plan, by whomever it was made, has been carried out on L̃.
+    // Has to be called when a plan, of whatever origin, has been carried out on L̃.
     void apply(const Plan& plan);
-    // L̃ is now this target, whole.
+    // L̃ has been set to this target as a whole.
     void approximation_is_target(const SignificantColumns& target);
-    // L̃ or L has changed in other ways; costs one more pass at the next decision.
+    // L̃ or L has changed in another way. The next decision takes one more pass over the sketch.
     void forget() { approximation_known_ = false; }
 
   private:

@@ -1,4 +1,4 @@
-// A histogram of importances, by which a budget's end is found without sorting.
+// A histogram of importances. It tells at which importance a budget ends, without sorting.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace relume::engine {
 
-// What one image may cost; whichever is reached first ends the selection, which holds at least
-// one column if any differs.
+// What one image may cost. The limit that is reached first ends the selection. A selection
+// holds at least one column if any differs.
 struct SelectionBudget {
     std::uint32_t columns = 0;
     std::uint64_t bytes = 0;
 };
 
-// Of non-negative floats the bits are in the order of the values: a bucket is eight bits of
-// exponent and three of mantissa, so that the values in one differ by an eighth at most. Not
-// thread-safe.
+// The bits of non-negative floats are in the order of their values. A bucket is given by the
+// eight bits of the exponent and the upper three of the mantissa, so that the values in a
+// bucket differ by an eighth at most. Not thread-safe.
 class ImportanceBuckets {
   public:
     [[nodiscard]] static std::size_t bucket_of(float importance) {
@@ -37,8 +37,8 @@ class ImportanceBuckets {
         bucket.bytes += bytes;
     }
 
-    // The bucket in which the budget ends, all above it fitting whole; and what those hold.
-    // kNone when everything fits.
+    // The bucket in which the budget ends: all buckets above it fit into the budget as a whole,
+    // and hold so many columns and bytes. kNone where everything fits.
     struct End {
         std::size_t bucket = 0;
         std::uint32_t columns_above = 0;
@@ -60,7 +60,8 @@ class ImportanceBuckets {
         end.bucket = kNone;
         return end;
     }
-    // No importance below it is within the budget.
+    // The lower end of the bucket in which the budget ends; what is less important does not
+    // fit.
     [[nodiscard]] float least_within(const SelectionBudget& budget) const {
         const std::size_t bucket = end_of(budget).bucket;
         return bucket == kNone ? 0 : lower_end(bucket);

@@ -1,4 +1,4 @@
-// How the engine chooses: what the next image changes, by the session's strategy.
+// The engine's choice of what the next image changes, by the session's strategy.
 #pragma once
 
 #include "protocol/relighting/strategy.h"
@@ -10,29 +10,32 @@
 
 namespace relume::engine {
 
-// Chooses, and changes nothing: whoever carries a plan out says so. Not thread-safe.
+// Makes plans and carries none of them out. Whoever does tells the planner by `apply`. Not
+// thread-safe.
 class Planner {
   public:
     explicit Planner(const ColumnTable& table) : table_(&table), guard_(table) {}
 
-    // The first image of a new signal, of which `lit` is what counts: the method's resets,
-    // then the most important differences. Valid until the next call.
+    // The plan for the first image of a new signal: the method's resets, then the most
+    // important differences. `lit` has the columns of the target that count. Valid until the
+    // next call.
     [[nodiscard]] const Plan& begin(const SignalState& signal,
                                     const SignificantColumns& lit,
                                     const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
-    // While the signal rests: more of what is left.
+    // The plan for a further image of the same signal: the most important of the differences
+    // that are left.
     [[nodiscard]] const Plan& go_on(const SignalState& signal,
                                     const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
 
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { guard_.apply(plan); }
-    // L̃ is now this target, whole.
+    // L̃ has been set to this target as a whole.
     void approximation_is_target(const SignificantColumns& target) {
         guard_.approximation_is_target(target);
     }
-    // L̃ has changed in ways nobody told.
+    // L̃ has changed in another way, which the planner has not been told.
     void approximation_is_unknown() { guard_.forget(); }
 
   private:

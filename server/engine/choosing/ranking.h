@@ -2,8 +2,8 @@
 #pragma once
 
 #include "server/engine/choosing/importance_buckets.h"
-#include "server/engine/columns/signal_state.h"
 #include "server/engine/columns/column_table.h"
+#include "server/engine/columns/signal_state.h"
 
 #include <array>
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace relume::engine {
 
-// Made once for a signal; plans for any set of resets are then selected from it. Columns
-// stand in the order of `ColumnTable::by_band`. Work is spread over the caller's arena, the
-// result does not depend on it. Not thread-safe while being made.
+// A ranking is made once for a signal; plans for any set of resets are then selected from it.
+// Columns stand in the order of `ColumnTable::by_band`. The work is spread over the caller's
+// arena; the result does not depend on the number of threads. Not thread-safe while it is made.
 class Ranking {
   public:
     // `weights` as ColumnTable::weights.
@@ -22,25 +22,26 @@ class Ranking {
               const SignalState& signal,
               std::span<const float> weights);
 
-    // Σ_c (weight·(L − L̃))², finite; kNoDifference where both are equal.
+    // Importance of every column as it is shown: Σ_c (weight·(L − L̃))², finite; kNoDifference
+    // where L and L̃ are equal.
     [[nodiscard]] std::span<const float> as_shown() const { return as_shown_; }
-    // The same were L̃ zero.
+    // Importance of every column if its band begins anew, that is with L̃ = 0.
     [[nodiscard]] std::span<const float> from_nothing() const { return from_nothing_; }
     static constexpr float kNoDifference = -1;
 
-    // Columns that differ once the bands of the mask have begun anew.
+    // Number of columns that differ once the bands of the mask have begun anew.
     [[nodiscard]] std::uint32_t differing_columns(std::uint32_t bands_to_reset) const;
 
-    // Of all places, in order, those that may be chosen within the budget whatever bands begin
-    // anew: the importance at which a budget ends is never below the one at which it ends when
-    // every column counts by the lesser of its two importances. Replaces the content of
-    // `places`.
+    // Replaces the content of `places` by the places, in order, of all columns that the budget
+    // may allow, whatever bands begin anew. Each column has two importances. If all counted by
+    // the lesser one, the budget would end at some importance; with any set of bands it ends
+    // there or higher. So columns both of whose importances are lower can be left out.
     void shortlist(const ColumnTable& table,
                    const SelectionBudget& budget,
                    std::vector<std::uint32_t>& places);
 
-    // Bands in which starting afresh is nearer to the target than what is shown,
-    // ‖L_b‖₁ < ‖L_b − L̃_b‖₁ [Overbeck06 §5], as a bit mask.
+    // Mask of the bands in which zero is nearer to the target than the approximation is:
+    // ‖L_b‖₁ < ‖L_b − L̃_b‖₁ [Overbeck06 §5].
     [[nodiscard]] std::uint32_t bands_nearer_from_nothing() const {
         return bands_nearer_from_nothing_;
     }

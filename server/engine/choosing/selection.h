@@ -1,11 +1,11 @@
-// Which differences between signal and approximation to bring into the image next.
+// The choice of the columns that the next image brings up to date.
 #pragma once
 
 #include "server/engine/choosing/importance_buckets.h"
 #include "server/engine/choosing/ranking.h"
+#include "server/engine/columns/column_table.h"
 #include "server/engine/columns/plan.h"
 #include "server/engine/columns/signal_state.h"
-#include "server/engine/columns/column_table.h"
 
 #include <cstdint>
 #include <span>
@@ -13,14 +13,15 @@
 
 namespace relume::engine {
 
-// Reused from image to image so that the steady state allocates nothing. Not thread-safe.
+// One object serves image after image, so that choosing soon allocates nothing. Not
+// thread-safe.
 class Selection {
   public:
-    // Fills the plan, whose bands to reset are given, with the columns of the largest
-    // importance, at equal values the lower index; the first that does not fit into the budget
-    // ends it. Only `places` in ColumnTable::by_band, ascending, are looked at: all of them,
-    // or the ranking's shortlist. Linear in their number; only the columns of the bucket in
-    // which the budget ends are put in order.
+    // Fills the plan, whose bands to reset are given, with the most important columns; of equal
+    // ones the lower index comes first. The first column that does not fit into the budget ends
+    // the selection. Only the columns at `places` in ColumnTable::by_band, ascending, are
+    // looked at: all of them, or the ranking's shortlist. Linear in their number, because only
+    // the columns of the bucket in which the budget ends are sorted.
     void choose(const ColumnTable& table,
                 const SignalState& signal,
                 const Ranking& ranking,

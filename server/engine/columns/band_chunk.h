@@ -1,4 +1,4 @@
-// A piece of a band.
+// Neighbouring columns of one band: the unit that loops over a signal are parallel over.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A column whose part in the image changes, from how much of it to how much.
+// A change of one column: how much of it the image holds before and after.
 #pragma once
 
 #include "protocol/transport/format.h"
@@ -11,8 +11,9 @@ namespace relume::engine {
 
 struct ColumnChange {
     std::uint32_t column = 0;
-    // L̃(j,c) before and after. Both, not their difference: floats that come and go in
-    // differences do not come back to where they were.
+    // L̃(j,c) before and after, by colour. Both are kept and not their difference: floats to
+    // which a difference is added and subtracted again do not return to the value that they
+    // had.
     std::array<float, transport::kColours> from{};
     std::array<float, transport::kColours> to{};
 
@@ -20,7 +21,8 @@ struct ColumnChange {
     [[nodiscard]] bool is_nothing() const { return from == to; }
 };
 
-// The part of `changes`, ordered by band, that belongs to one band.
+// Those of `changes`, which are ordered by band, that belong to one band. `bands` has the band
+// of every column, [N].
 [[nodiscard]] std::span<const ColumnChange> changes_of_band(
     std::span<const ColumnChange> changes,
     std::span<const std::uint8_t> bands,

@@ -15,7 +15,7 @@
 namespace relume::engine {
 
 // Knows nothing of light, of pixels or of files. Immutable; safe to share between threads. It
-// keeps the spans it is made of: whoever makes it keeps what they point to.
+// keeps the spans that it is made of, and what they point to must outlive it.
 class ColumnTable {
   public:
     // Of N columns.
@@ -23,8 +23,8 @@ class ColumnTable {
         basis::Bands bands;                    // of the signal's basis
         std::span<const float> energies;       // [N][3], Σ over receivers of T(p,c,j)²
         std::span<const std::uint32_t> bytes;  // [N], read to add the column to sums
-        // Two sketches of independent rows: what is chosen by the one is stated by the other,
-        // for rows that have been minimised over are no unbiased witness any more.
+        // Two sketches of independent rows: by one the engine chooses, by the other it states
+        // its error. An estimate that has been minimised over is biased.
         transport::Sketch stating;
         transport::Sketch choosing;
     };
@@ -51,8 +51,9 @@ class ColumnTable {
     }
     // Every place in `by_band`, 0 … N−1.
     [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
-    // The same in pieces of one band and at most 1024 columns, in order: what loops over the
-    // signal are parallel over, so that their sums do not depend on the number of threads.
+    // The same places in pieces of one band and at most 1024 columns, in order. Loops over the
+    // signal are parallel over these pieces, so that their sums do not depend on the number of
+    // threads.
     [[nodiscard]] std::span<const BandChunk> band_chunks() const { return band_chunks_; }
 
     // Bytes read to add a column to sums, and to add every column.

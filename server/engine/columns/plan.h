@@ -1,4 +1,4 @@
-// What the next image changes: the decision, apart from carrying it out.
+// What the next image changes. A plan is a decision; others carry it out.
 #pragma once
 
 #include "server/engine/columns/column_change.h"
@@ -8,8 +8,8 @@
 
 namespace relume::engine {
 
-// Bands begin anew first, then the columns are added; every change is relative to the
-// approximation after the resets.
+// First the bands of the mask begin anew (L̃ := 0), then the changes are made. `from` of a
+// change is L̃ after the resets.
 struct Plan {
     std::uint32_t bands_to_reset = 0;     // bit b: L̃ := 0 in band b
     std::vector<ColumnChange> changes;    // ordered by band and index

@@ -1,8 +1,8 @@
 // Target signal L and its approximation L̃, as coefficients of the scene's basis.
 #pragma once
 
-#include "server/engine/columns/plan.h"
 #include "server/engine/columns/column_table.h"
+#include "server/engine/columns/plan.h"
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ namespace relume::engine {
 // times this; the wire's largest lights reach 10²³.
 inline constexpr float kLargestCoefficient = 1e30F;
 
-// Planar [3][N] both. Not thread-safe.
+// Both signals are planar, [3][N]. Not thread-safe.
 class SignalState {
   public:
     explicit SignalState(const ColumnTable& table);
@@ -26,13 +26,15 @@ class SignalState {
 
     [[nodiscard]] std::span<const float> target() const { return target_; }
     [[nodiscard]] std::span<const float> approximation() const { return approximation_; }
-    // L − L̃ of one column.
+    // The change of one column from L̃ to L.
     [[nodiscard]] ColumnChange difference(std::size_t column) const;
-    // L of one column: the difference from nothing.
+    // The change of one column from zero to L.
     [[nodiscard]] ColumnChange whole(std::size_t column) const;
 
-    // Carries the plan out on L̃; L̃_j := L_j where a column is changed.
+    // Carries the plan out on L̃: zero in the bands that begin anew, then L_j in every column
+    // that is changed.
     void apply(const Plan& plan);
+    // L̃ := L.
     void apply_all();
 
   private:

@@ -1,4 +1,4 @@
-// The columns of a signal that count in its image.
+// The columns of a signal that count in its image. Estimates pass over the others.
 #pragma once
 
 #include "server/engine/columns/column_table.h"
@@ -9,7 +9,8 @@
 
 namespace relume::engine {
 
-// What may be left out where nobody knows how small the error will be that is to be estimated.
+// The part of the image's norm that may be left out where the error to be estimated is not
+// known yet: far below any error that is stated.
 inline constexpr double kSurelyNegligible = 2e-6;
 
 // By chunk of a band and colour, in the order of ColumnTable::band_chunks. Not thread-safe.
@@ -24,10 +25,11 @@ class SignificantColumns {
 
     // All columns of signal, planar [3][N], that are not zero.
     void set(std::span<const float> signal);
-    // The same without those that do not count: which each have so little of the image's
-    // energy, Σ_c (L(c,j)·‖T(c,j)‖)², that all together would leave no more than `negligible`
-    // of its norm were they orthogonal. Most of a light's columns are such: of a sunny sky's
-    // two thirds at 2·10⁻⁶, 19 of 20 at 2·10⁻⁴.
+    // The same without the columns that hardly count. A column counts by its energy in the
+    // image, Σ_c (L(c,j)·‖T(c,j)‖)². All columns below a threshold of energy are left out; were
+    // they orthogonal, they would together have at most `negligible` of the image's norm. Most
+    // columns of a light hardly count: of a sunny sky two thirds at 2·10⁻⁶ and 19 of 20 at
+    // 2·10⁻⁴.
     void set_nearly(std::span<const float> signal, double negligible);
 
     [[nodiscard]] std::span<const Column> of(std::size_t chunk, std::uint32_t colour) const;

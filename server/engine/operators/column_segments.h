@@ -1,4 +1,4 @@
-// Changed columns as the kernel takes them.
+// The stored segments of changed columns, with their weights, as the kernel takes them.
 #pragma once
 
 #include "protocol/transport/transport.h"
@@ -18,7 +18,7 @@ void gather_segments(const transport::Transport& transport,
                      std::span<const ColumnChange> changes,
                      std::vector<WeightedSegment>& segments);
 
-// The blocks of a shard of so many in which any of the segments has cells, a bit each.
+// Bit b: any of the segments has a cell in block b of the shard, which has `block_count`.
 [[nodiscard]] std::uint64_t occupied_blocks(std::span<const WeightedSegment> segments,
                                             std::uint32_t block_count);
 

@@ -1,5 +1,5 @@
-// The operator of a transport directory: stored columns, and the same arranged for whole
-// products.
+// The operator of a transport directory. It has the transport twice: by column, as stored, for
+// changes of few columns, and arranged block by block for whole products.
 #pragma once
 
 #include "protocol/transport/transport.h"
@@ -19,7 +19,7 @@ class StoredOperator final : public TransportOperator {
 
     [[nodiscard]] const transport::Transport& transport() const { return *transport_; }
     [[nodiscard]] const StripMatrix& strips() const { return strips_; }
-    // Bytes of memory: the mapped transport and the strips.
+    // Bytes of memory: the transport as read, and the strips.
     [[nodiscard]] std::uint64_t bytes() const {
         return transport_->total_bytes() + strips_.bytes();
     }

@@ -1,5 +1,5 @@
-// The transport once more, arranged for whole products: block by block, and in a block all
-// columns' strips at one place side by side.
+// The transport once more, arranged for whole products: block by block, and within a block the
+// strips that all columns have at one place lie side by side.
 #pragma once
 
 #include "protocol/transport/transport.h"
@@ -13,13 +13,14 @@
 
 namespace relume::engine {
 
-// A transport's files are ordered by column, because images of few terms read few columns. To
-// read them all in that order costs two additions in memory for each in a register; in this one
-// a strip's sums stay in registers for hundreds of columns. Immutable; safe to share between
-// threads.
+// A transport's files are ordered by column, because images of few terms read few columns. In
+// that order a whole product loads and stores a strip's sums once for every column. In the
+// order of this class they stay in registers for hundreds of columns. Immutable; safe to share
+// between threads.
 class StripMatrix {
   public:
-    // Keeps a reference to the columns, which are the transport's. In parallel.
+    // `columns` is the table of the transport's columns; a reference to it is kept. The work is
+    // spread over the caller's arena.
     StripMatrix(const transport::Transport& transport, const ColumnTable& columns);
 
     [[nodiscard]] std::uint32_t block_count() const {
@@ -29,13 +30,14 @@ class StripMatrix {
     [[nodiscard]] std::uint32_t bands_of_block(std::uint32_t block) const {
         return blocks_[block].bands;
     }
-    // Bytes of memory: of all blocks, and of one, which is what its part of a product reads.
+    // Bytes of memory of all blocks, and of one block. A whole product reads all of them.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     [[nodiscard]] std::uint64_t bytes_of_block(std::uint32_t block) const {
         return blocks_[block].bytes();
     }
 
-    // The weights of all columns, per channel and ordered as the bands are: [K][N][4].
+    // The weights of all columns by channel, columns in the order of ColumnTable::by_band:
+    // [K][N][4].
     using Weights = TransportOperator::Weights;
     using Member = TransportOperator::Member;
     // As TransportOperator.
@@ -43,7 +45,8 @@ class StripMatrix {
                   std::uint32_t band,
                   std::span<const Member> members) const;
 
-    // Of a signal, planar [3][N], with the channels' steps and colours.
+    // `signal` is planar [3][N]. The quantisation steps and the colours of the channels go
+    // into the weights.
     void set_weights(const transport::Transport& transport,
                      std::span<const float> signal,
                      Weights& weights) const;

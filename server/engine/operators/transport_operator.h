@@ -16,8 +16,9 @@ namespace relume::engine {
 // or one of several terms, whose blocks follow one another.
 //
 // An operator is immutable and safe to share between threads. Its virtual functions are called
-// once a run of blocks or a block, never once a column. The order in which an operator adds is
-// its own, and the same on every call and in any company: so results have the same bits.
+// once for a run of blocks or for a block, never once for a column. Each operator adds in an
+// order of its own. That order is the same on every call, whoever else is served in the call,
+// so that equal inputs give equal bits.
 class TransportOperator {
   public:
     virtual ~TransportOperator() = default;
@@ -31,8 +32,8 @@ class TransportOperator {
         return std::size_t{block_count_} * transport::kColours * transport::kBlockSize;
     }
 
-    // Neighbouring blocks that changed columns are added to together. Runs, in order, are all
-    // blocks.
+    // A run is a number of neighbouring blocks, to which changed columns are added in one call
+    // of `add`. Every block is in exactly one run, and runs are in the order of blocks.
     struct BlockRun {
         std::uint32_t first = 0;
         std::uint32_t count = 0;  // at most 64
@@ -40,37 +41,39 @@ class TransportOperator {
     [[nodiscard]] virtual std::size_t run_count() const = 0;
     [[nodiscard]] virtual BlockRun run(std::size_t number) const = 0;
 
-    // Where a run's changes are added: [count][3][256] each, with no overlap. `total` may be
-    // null; `occupied` too, else it is set to the blocks of the run in which anything was
-    // added, a bit each.
+    // Where a run's changes are added: two sets of sums, [count][3][256] each, which do not
+    // overlap. `total` may be null. Where `occupied` is not null it is set to a mask: bit b
+    // says that anything was added to block b of the run.
     struct RunTargets {
         float* sums = nullptr;
         float* total = nullptr;
         std::uint64_t* occupied = nullptr;
     };
-    // Adds T_j·(to − from) of every change to both targets.
+    // Adds T_j·(to − from) of every change to `sums` and to `total`.
     virtual void add(std::size_t run,
                      std::span<const ColumnChange> changes,
                      const RunTargets& targets) const = 0;
 
-    // A whole signal as `multiply` takes it: an operator's own, of its length and order.
+    // A whole signal in the form that this operator's `multiply` takes. Length and order are
+    // the operator's own affair.
     using Weights = std::vector<float>;
-    // Of a signal, planar [3][N].
+    // `signal` is planar [3][N].
     virtual void set_weights(std::span<const float> signal, Weights& weights) const = 0;
 
-    // One who has a product made.
+    // One of the signals that are multiplied in one call of `multiply`.
     struct Member {
-        const Weights* weights = nullptr;
-        float* sums = nullptr;  // of the block and band, [3][256]
+        const Weights* weights = nullptr;  // the whole signal
+        float* sums = nullptr;             // what its product is added to, [3][256]
     };
-    // Adds a block's rows of one band, times the members' weights, to their sums. Any number of
-    // members, each getting the bits it would get alone.
+    // For every member, multiplies the part of T that lies in the block's rows and the band's
+    // columns by the member's signal, and adds the product to the member's sums. A member gets
+    // the same bits alone and among any number of others.
     virtual void multiply(std::uint32_t block,
                           std::uint32_t band,
                           std::span<const Member> members) const = 0;
-    // The bands in which a block has anything, a bit each.
+    // Bit b: T is not zero all over in the block's rows and the columns of band b.
     [[nodiscard]] virtual std::uint32_t bands_of_block(std::uint32_t block) const = 0;
-    // What a whole product reads of one block, and of all.
+    // Bytes that the product of T and a whole signal reads of one block, and of all blocks.
     [[nodiscard]] virtual std::uint64_t product_bytes_of_block(std::uint32_t block) const = 0;
     [[nodiscard]] virtual std::uint64_t product_bytes() const = 0;
 

@@ -1,4 +1,5 @@
-// The running total of the columns shown, and images of what it holds of the bands.
+// The sums of the image that is shown (the *total*), and for some bands the sums of what the
+// total holds of that band alone, so that the band can be taken out of it.
 #pragma once
 
 #include "server/engine/columns/column_change.h"
@@ -17,43 +18,46 @@ namespace relume::engine {
 // Most sessions that are relit in one sweep.
 inline constexpr std::size_t kMaxBatchMembers = 16;
 
-// Sums are [blocks][3][256], in the basis of the blocks, before tint. The total is what the
-// bands' images and the loose columns add up to. A band has no image, and takes no memory,
-// before a whole product or very many columns gave it one. A block's sums are made by one
-// thread in one order, so the result does not depend on the number of threads. Not thread-safe.
+// Sums are [blocks][3][256], in the basis of the blocks, before tint. The sums of one band are
+// called its image. The total equals the sum of the bands' images and of the loose columns
+// (loose_columns.h). A band gets an image, and memory for it, from a whole product or when very
+// many of its columns change. One thread makes a block's sums in one order, so the result does
+// not depend on the number of threads. Not thread-safe.
 class BandSums {
   public:
     explicit BandSums(const TransportOperator& of);
 
-    // Takes the bands of the mask out of the total and adds the changes, which are ordered by
-    // band and index and relative to that. What rounding leaves is part of rounding_error();
-    // nothing is left where all bands were cleared.
+    // Takes the bands of the mask out of the total, then adds the changes. These are ordered by
+    // band and index, and their `from` is what is shown once the bands have been taken out.
+    // rounding_error_of_total() covers what rounding leaves of the bands; where all bands are
+    // taken out the total is exactly zero.
     void update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes);
 
     [[nodiscard]] std::span<const float> total() const { return total_.sums(); }
-    // Of the columns that the last update added, those taken back among them.
+    // Bytes of the columns that the last update added to sums, or took out of them.
     [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
-    // Memory for what the bands hold, beside the total: images and loose columns.
+    // Bytes of memory beside the total: the bands' images and the loose columns.
     [[nodiscard]] std::uint64_t bytes_of_bands() const;
 
-    // Estimated rounding error that additions have left in the total since it was last made, as
-    // an L2 norm, ε·√(Σ_updates ‖total‖²).
+    // Estimated L2 norm of the rounding error that additions have left in the total since the
+    // total was last made anew: ε·√(Σ_updates ‖total‖²).
     [[nodiscard]] double rounding_error_of_total() const;
-    // Makes the total anew from the bands' images and the loose columns.
+    // Makes the total anew as the sum of the bands' images and the loose columns.
     void renew_total();
-    // The same of the bands' images, which no making anew of the total removes; and where loose
-    // columns take back much of a band's image, what that leaves of it (known from the last
-    // renewal of the total on).
+    // Estimated L2 norm of the rounding error in the bands' images. renew_total() adds these
+    // images up and so keeps their errors; only renew_band() removes them. An image counts once
+    // more where loose columns take back much of it: what is left is small beside what was
+    // rounded. That part is measured by renew_total().
     [[nodiscard]] double rounding_error_of_bands() const;
-    // The band to blame most for it.
+    // The band that has the largest part in that error.
     [[nodiscard]] std::uint32_t most_drifted_band() const;
-    // Makes the band's image from nothing, of all that is shown of the band, and the total
-    // anew.
+    // Makes the band's image anew from nothing, then the total. `weights` are those of the
+    // approximation, of which the band's part is taken.
     void renew_band(std::uint32_t band, const TransportOperator::Weights& weights);
 
-    // What `update` does to each of several images of one scene, at most kMaxBatchMembers, in
-    // one sweep over the shards, so that what they have in common is read from memory once. The
-    // same bits, whoever is swept together.
+    // Does what `update` does to each of several sums over one operator, at most
+    // kMaxBatchMembers, in one sweep over its runs, so that columns that several of them change
+    // are read from memory once. Each gets the same bits alone and together with others.
     struct Update {
         BandSums* sums = nullptr;  // no two the same
         std::uint32_t bands_to_clear = 0;
@@ -61,10 +65,10 @@ class BandSums {
     };
     static void update_together(std::span<const Update> updates);
 
-    // For images made from nothing, some blocks at a time, and again several of them in one
-    // sweep: all bands and the total of blocks [first, last) become the whole product by the
-    // weights. Every block must get its turn with the same weights before the total means
-    // anything. Depends on the weights alone, to the last bit.
+    // Makes sums from nothing, some blocks at a time and several sums in one sweep: in blocks
+    // [first_block, last_block) the bands' images and the total become the product of T and the
+    // weights. The sums are of use once every block has been made with the same weights. They
+    // depend on the weights alone, to the last bit.
     struct Rebuild {
         BandSums* sums = nullptr;  // no two the same
         const TransportOperator::Weights* weights = nullptr;

@@ -1,39 +1,40 @@
-// How much rounding additions have left in a set of sums.
+// An estimate of the rounding error that additions have left in a set of sums.
 #pragma once
 
 #include <cstddef>
 
 namespace relume::engine {
 
-// An estimate, ε·√(Σ_updates ‖sums‖²): half an ε for the additions and half a one for the
-// amounts, which err alike everywhere. It needs the sums' norm, which is measured now and then,
-// for that takes as long as adding a few columns; in between it is bounded by what was added.
-// A value; not thread-safe.
+// The estimate is ε·√(Σ_updates ‖sums‖²). Half an ε stands for the rounding of the additions,
+// and half an ε for the rounding of the amounts that are added, which errs alike in all sums.
+// To measure the norm of the sums takes as long as to add a few columns. So it is measured from
+// time to time, and bounded in between by the norms of what was added. A value; not
+// thread-safe.
 class Drift {
   public:
     // Of sums that are zero.
     Drift() = default;
-    // Of sums made from nothing, nobody knows how large.
+    // Of sums that were made from nothing and whose norm has not been measured.
     [[nodiscard]] static Drift of_unknown_norm();
 
     [[nodiscard]] bool norm_is_unknown() const { return updates_since_ == kUnknown; }
-    // Not less than ‖sums‖, while it is known.
+    // An upper bound of ‖sums‖; means nothing while the norm is unknown.
     [[nodiscard]] double norm() const { return norm_; }
     void set_norm(double measured);
 
-    // An update of so many columns adds so much at most; whether the norm must be measured
-    // after it.
+    // Records an update that adds at most `norm_of_changes` to the norm, by so many changed
+    // columns. True where the norm has to be measured after it.
     [[nodiscard]] bool add(double norm_of_changes, std::size_t changes);
-    // So many additions passed through sums of at most that norm.
+    // Records additions during which the norm of the sums was at most `largest_norm`.
     void record(unsigned additions, double largest_norm) {
         squared_norms_ += additions * largest_norm * largest_norm;
     }
     // The sums have been made anew; their norm is what it was.
     void forget_additions() { squared_norms_ = 0; }
-    // Of a band: loose columns may have taken back so much of it (LooseColumns).
+    // Of the image of a band: the norm of the part that loose columns take back (LooseColumns).
     void set_cancelled_norm(double norm) { cancelled_norm_ = norm; }
 
-    // Σ_updates ‖sums‖², what is cancelled counted as one more.
+    // Σ_updates ‖sums‖², in which the part that is taken back counts as one more update.
     [[nodiscard]] double squared_norms() const {
         return squared_norms_ + cancelled_norm_ * cancelled_norm_;
     }
@@ -48,7 +49,7 @@ class Drift {
     double cancelled_norm_ = 0;
 };
 
-// L2 norm of the rounding error that additions to sums of such squared norms have left.
+// The estimate itself, an L2 norm, from Σ_updates ‖sums‖².
 [[nodiscard]] double rounding_error(double squared_norms);
 
 }  // namespace relume::engine

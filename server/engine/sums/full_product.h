@@ -1,5 +1,5 @@
-// The whole product T·L, made from nothing in slices of a budget, aside from the sums that are
-// shown.
+// The whole product T·L, made from nothing in slices, in sums of its own. The sums that are
+// shown stay as they are until it is done.
 #pragma once
 
 #include "server/engine/operators/transport_operator.h"
@@ -13,24 +13,26 @@
 
 namespace relume::engine {
 
-// Sums run in the order of bands and columns whatever came before and whoever is swept with it,
-// so the result depends on the signal alone. Not thread-safe.
+// Additions have one order, by band and column, whatever was shown before and whatever other
+// products are made in the same sweep. So the result depends on the signal alone, to the last
+// bit. Not thread-safe.
 class FullProduct {
   public:
-    // Keeps references to both. Sums that it works in are borrowed from the spare ones.
+    // Keeps references to both. It borrows the sums that it works in from `spare`.
     FullProduct(const TransportOperator& of, SpareSums& spare)
         : operator_(&of), spare_(&spare) {}
 
     [[nodiscard]] bool running() const { return blocks_left_ > 0; }
-    // Begins anew with this signal, planar [3][N], at any block: it goes around. Products
-    // that stand at the same block are swept together.
+    // Begins anew with this signal, planar [3][N]. It begins at `first_block` and goes around,
+    // so that it can join another product: those that stand at the same block are swept
+    // together.
     void start(std::span<const float> signal, std::uint32_t first_block = 0);
     void abandon();
     [[nodiscard]] std::uint32_t next_block() const { return next_block_; }
 
-    // Each of the products, all running and of one operator, goes through some blocks, and
-    // on until about `bytes` have been read; returns the bytes read, those that
-    // several shared counted for each. One ends with running() false when all is done.
+    // Each of the products, all running and of one operator, goes on through its blocks until
+    // about `bytes` have been read. Returns the bytes read; bytes that several products shared
+    // count for each of them. running() of a product is false once it is done.
     static std::uint64_t advance_together(std::span<FullProduct* const> products,
                                           std::uint64_t bytes);
     std::uint64_t advance(std::uint64_t bytes) {
@@ -38,7 +40,7 @@ class FullProduct {
         return advance_together({&product, 1}, bytes);
     }
 
-    // Hands the finished sums over in exchange for the ones given.
+    // Swaps the finished sums with `sums`, which go back to the spare ones.
     void exchange(BandSums& sums);
 
   private:

@@ -1,4 +1,5 @@
-// Columns that the running total holds and the images of their bands do not.
+// *Loose* columns: those of which the total (band_sums.h) holds more, or less, than the image
+// of their band does.
 #pragma once
 
 #include "server/engine/columns/column_change.h"
@@ -10,32 +11,37 @@
 
 namespace relume::engine {
 
-// A drag changes few columns an image and soon takes most of them back. To write them into an
-// image per band as well takes longer than to take them away again column by column; so they
-// stay loose. Not thread-safe.
+// A drag changes few columns an image and soon takes most of them back. To write every change
+// into the image of its band as well takes longer than to take the columns out of the total
+// again one by one. So changes go to the total alone, and this class keeps a list of them. Not
+// thread-safe.
 class LooseColumns {
   public:
     explicit LooseColumns(const TransportOperator& of);
 
-    // What an update comes to, ordered by band and index.
+    // The additions that an update of BandSums comes to, ordered by band and index.
     struct Split {
         std::vector<ColumnChange> total_alone;
         std::vector<ColumnChange> total_and_band;
 
         void clear();
     };
-    // Bands of the mask begin anew, whose images the caller takes away; the changes, ordered by
-    // band and index, are relative to that. What is loose in these bands is taken back, in one
-    // with what comes new of the same column. Columns of a band are loose until they have more
-    // bytes than kLooseImages images of sums; what else changes goes into its band's image too.
+    // Works out the additions of an update. The bands of the mask begin anew: the caller takes
+    // their images out of the total, and `split` takes out what is loose in them. The changes
+    // are ordered by band and index, and their `from` is what is shown after that. Where a
+    // column is both taken out and changed, the two become one addition. A band's changed
+    // columns are loose until they have more bytes than kLooseImages sets of sums; beyond that
+    // a change goes into the image of its band too.
     static constexpr std::uint64_t kLooseImages = 4;
     void update(std::uint32_t bands_to_clear,
                 std::span<const ColumnChange> changes,
                 Split& split);
 
-    // From what the band's image holds to what the total holds, ordered by band and index.
+    // The loose columns: `from` is how much the band's image holds, `to` how much the total
+    // holds. Ordered by band and index.
     [[nodiscard]] std::span<const ColumnChange> columns() const { return columns_; }
-    // The band's image has been made to hold what the total holds.
+    // The image of the band, or of every band, has been made anew and holds what the total
+    // holds of it.
     void clear(std::uint32_t band);
     void clear();
 

@@ -1,4 +1,4 @@
-// An image before tint, in the basis of its blocks.
+// One set of sums: what the receivers of all blocks have been given.
 #pragma once
 
 #include "protocol/transport/format.h"
@@ -12,9 +12,9 @@
 
 namespace relume::engine {
 
-// Sums, [blocks][3][256], zero until written. The system takes memory for it page by page as it
-// is written, so that to begin an image of many blocks costs nothing, and to fill it is spread
-// over the threads that do. Not thread-safe; blocks are apart from one another.
+// [blocks][3][256], zero until written. The system gives memory to it page by page when it is
+// written. So to make an object for many blocks costs nothing, and filling it is spread over
+// the threads that write. Not thread-safe, but different threads may write different blocks.
 class ReceiverSums {
   public:
     static constexpr std::size_t kSumsPerBlock =
@@ -33,7 +33,7 @@ class ReceiverSums {
     [[nodiscard]] std::span<const float> sums() const {
         return {sums_.get(), block_count_ * kSumsPerBlock};
     }
-    // Of a block and, as they lie one after the other, of those that follow.
+    // The sums of a block, [3][256]; those of the following blocks lie behind them.
     [[nodiscard]] float* block(std::uint32_t block) {
         return sums_.get() + block * kSumsPerBlock;
     }

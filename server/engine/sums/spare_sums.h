@@ -1,4 +1,4 @@
-// Sums that a whole product was made in and that nobody shows any more.
+// Sets of sums that whole products are made in, kept between two products.
 #pragma once
 
 #include "server/engine/sums/band_sums.h"
@@ -9,9 +9,9 @@
 
 namespace relume::engine {
 
-// A session needs a second set of sums only while its product is being made; sets that are
-// free go to whoever of the workspace begins the next, their memory being at hand. Thread-safe,
-// and nobody waits for anybody.
+// A session needs a second set of sums only while its whole product is made. A set that is free
+// goes to the session of the workspace that begins the next product, so that its memory need
+// not be asked of the system again. Thread-safe, without locks.
 class SpareSums {
   public:
     SpareSums() = default;
@@ -19,9 +19,9 @@ class SpareSums {
     SpareSums& operator=(const SpareSums&) = delete;
     ~SpareSums();
 
-    // Whatever they hold: a product sets all of it.
+    // A set of unknown content: a product sets all of it.
     [[nodiscard]] std::unique_ptr<BandSums> take(const TransportOperator& of);
-    // Keeps as many as are needed together in one sweep, frees the others.
+    // Keeps at most kMaxBatchMembers sets, as many as one sweep needs, and frees further ones.
     void give(std::unique_ptr<BandSums> sums);
 
   private:

@@ -26,7 +26,7 @@ class Metrics {
     // The text exposition format, version 0.0.4.
     [[nodiscard]] std::string text() const;
 
-    // From a changed state to lighting coefficients and background.
+    // The time from a changed state to lighting coefficients and background.
     void observe_lighting(double seconds);
     void count_slice(const engine::StepReport& step, double relight_seconds);
     void observe_compose(double seconds);

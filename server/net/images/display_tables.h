@@ -14,8 +14,8 @@ namespace relume::net {
 // Keeps the tables that were asked for last, and makes those that are new. Not thread-safe.
 class DisplayTables {
   public:
-    // One for each choice, in order; they live until the next call. Of what is not chosen,
-    // `room` decides.
+    // A table for each choice, in order, valid until the next call. What a viewer has not
+    // chosen is the room's.
     [[nodiscard]] std::vector<const DisplayTable*> of(
         std::span<const wire::DisplayChoice> choices, const wire::Display& room);
 

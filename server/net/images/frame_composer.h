@@ -21,23 +21,23 @@ class FrameComposer {
     // Keeps references to both, which are of one scene.
     FrameComposer(const view::ImageView& view, const SkyPixels& sky);
 
-    // Of every picture: nobody else is asked for it.
+    // Of every picture.
     [[nodiscard]] std::uint32_t width() const { return image_.width; }
     [[nodiscard]] std::uint32_t height() const { return image_.height; }
 
-    // What is behind the scene from now on. The rig is looked up only in mode `environment`, at
-    // its full resolution, once per pixel that sees it.
+    // Sets what shows behind the scene. In mode `environment` the rig is looked up at its full
+    // resolution, once for each pixel that sees it; in other modes it is not used.
     void set_background(const wire::Background& background, const light::LightRig& rig);
     [[nodiscard]] bool has_alpha() const { return has_alpha_; }
 
-    // Puts the view's image of the sums and the background together: as code values for a JPEG of each
-    // display, over black where transparent; and, where `half_planes`, as linear radiance in
-    // half floats, premultiplied where transparent.
+    // Puts the view's image of the sums over the background. Makes code values for a JPEG of
+    // each display, over black where the background is transparent. Where `half_planes` is set,
+    // it also makes linear radiance in half floats, premultiplied where transparent.
     void compose(std::span<const float> sums,
                  std::span<const DisplayTable* const> displays,
                  bool half_planes);
-    // Of the last `compose`, display by display: interleaved, row by row from the top,
-    // 3·width·height.
+    // Code values of the last `compose` for one of its displays: interleaved, row by row from
+    // the top, 3·width·height.
     [[nodiscard]] std::span<const std::uint8_t> codes(std::size_t display) const {
         return codes_[display];
     }

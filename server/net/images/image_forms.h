@@ -9,14 +9,14 @@
 namespace relume::net {
 
 struct ImageForms {
-    // Of so many displays an image is made; viewers of a further one get the room's.
+    // An image is made for so many displays. Viewers of a further display get the room's.
     static constexpr std::size_t kMostDisplays = 4;
 
     std::vector<wire::DisplayChoice> displays;  // one JPEG each
     bool half_planes = false;
 
-    // Adds the display if it is new. Of more than there may be, the last makes place for the
-    // room's.
+    // Adds the display if it is new. Where there are too many, the room's display takes the
+    // place of the last.
     void add(const wire::DisplayChoice& display);
 };
 

@@ -28,7 +28,7 @@ struct ImageFrame {
 };
 using SharedImageFrame = std::shared_ptr<const ImageFrame>;
 
-// The same picture, made for another revision that it shows as well: it has cost nothing.
+// The same picture under another revision, which it shows as well. Its header states no cost.
 [[nodiscard]] SharedImageFrame restamped(const ImageFrame& frame, const ImageStamp& stamp);
 
 // One image of a room in every form that its viewers asked for. All of them have one sequence
@@ -42,8 +42,9 @@ struct ImageFrames {
     SharedImageFrame half_planes;  // null if nobody asked for it
     bool settled = false;
 
-    // For a viewer of this interest and display: a JPEG of another display, the room's where
-    // there is one, if there is none of his own; null where he gets nothing.
+    // The frame for a viewer of this interest and display. Where there is no JPEG of that
+    // display it is a JPEG of another one, the room's if there is one. Null where the viewer
+    // gets nothing.
     [[nodiscard]] SharedImageFrame for_viewer(ImageInterest interest,
                                               const wire::DisplayChoice& display) const;
 };

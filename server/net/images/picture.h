@@ -11,14 +11,13 @@ namespace relume::net {
 class FrameComposer;
 
 struct Picture {
-    // All but the encoding and what it tells: its time and the payload's length.
+    // Without what encoding adds: the encoding, its time and the length of the payload.
     wire::ImageHeader header;
     bool has_alpha = false;  // of half planes
     bool settled = false;
     ImageForms forms;
     int jpeg_quality = 0;
-    // Holds the pixels, as the encoding takes them; composes nothing else before the picture is
-    // encoded.
+    // Holds the pixels. It must compose nothing else before the picture is encoded.
     std::shared_ptr<const FrameComposer> composer;
 };
 

@@ -13,7 +13,7 @@
 
 namespace relume::net {
 
-// Some of them, one after the other as they lie in the image, as they are looked up.
+// Some of these pixels, in the order of the image, in the form in which they are looked up.
 struct SkyLooks {
     light::LookDirections directions;    // unit, in the world, through the pixels' centres
     light::LookNumbers footprints_sr{};  // solid angles of the pixels
@@ -21,11 +21,11 @@ struct SkyLooks {
     std::uint32_t count = 0;             // kLooksPerRun, but for the last
 };
 
-// Pixels of one row side by side.
+// Neighbouring such pixels of one row.
 struct SkyRun {
     std::uint32_t x = 0;  // of the first
     std::uint32_t count = 0;
-    std::uint32_t place = 0;  // of the first among all
+    std::uint32_t place = 0;  // of the first one, among all sky pixels
 };
 
 // Immutable; shared by all rooms of a scene.

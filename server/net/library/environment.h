@@ -29,14 +29,15 @@ class Environment {
         EnvironmentKind kind = EnvironmentKind::file;
         std::uint32_t width = 0;
         std::uint32_t height = 0;
-        // Of the map behind the name: higher than that of any earlier one of this server.
+        // Of the map behind the name; higher than the version of any earlier map of this
+        // server.
         std::uint64_t version = 0;
     };
     using Load = std::function<light::EnvironmentMap()>;
     using SharedMap = std::shared_ptr<const light::EnvironmentMap>;
     using SharedPrefiltered = std::shared_ptr<const light::PrefilteredEnvironment>;
 
-    // Loaded by `load` when needed, and again when it was let go of.
+    // Loaded by `load` when it is needed, and again after the cache has let go of it.
     Environment(Description description, Load load, std::shared_ptr<ResidentCache> cache);
     // Kept as long as this object.
     Environment(Description description, SharedMap map, std::shared_ptr<ResidentCache> cache);

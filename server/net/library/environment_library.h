@@ -35,26 +35,26 @@ class EnvironmentLibrary {
                   std::uint32_t width,
                   std::uint32_t height,
                   Environment::Load load);
-    // Offers it no more; who uses it keeps it.
+    // Ends the offer. Rooms that use the map keep it.
     void remove_file(const std::string& name);
 
     // Offers an uploaded map, in place of an earlier upload of this name. When there are too
     // many, those that no room uses go first. Throws WireError: unsupported when the name is
     // taken by what is no upload, too_many when nothing can be dropped.
     void add_upload(const std::string& name, light::EnvironmentMap map);
-    // Called, without locks held, after a map has taken the place of an earlier one. Set before
-    // that may happen.
+    // `tell` is called, without locks held, after a map has taken the place of an earlier one.
+    // Has to be set before that can happen.
     void when_replaced(std::function<void(const std::string& name)> tell) {
         tell_replaced_ = std::move(tell);
     }
-    // As add_upload would refuse it by name alone.
+    // Throws where add_upload would refuse the name.
     void check_upload_name(std::string_view name) const;
 
-    // By name; null when there is none. Who holds the result keeps it usable.
+    // By name; null when there is none. The result stays usable as long as it is held.
     [[nodiscard]] std::shared_ptr<Environment> find(std::string_view name) const;
     // In the order of their names.
     [[nodiscard]] std::vector<Environment::Description> list() const;
-    // Bytes of all that is kept in memory but not by rooms alone.
+    // Bytes of all maps that are kept in memory, but for those that only rooms hold.
     [[nodiscard]] std::size_t resident_bytes() const;
 
   private:

@@ -13,12 +13,12 @@
 
 namespace relume::net {
 
-// A thread of its own looks, and opens what it finds: that takes seconds, and but for the first
-// look a part of the processors only, so that rooms go on meanwhile. It looks rather than being
-// told by the system, for network file systems tell nobody.
+// A thread of its own looks, and opens what it finds. That takes seconds. After the first look
+// it uses only some of the processors, so that rooms go on meanwhile. It looks and does not
+// wait for notices of the system, because network file systems send none.
 class FolderWatcher {
   public:
-    // Is to return soon when a stop is asked for.
+    // What is done at each look. Has to return soon when a stop is asked for.
     using Look = std::function<void(Patience patience, const std::stop_token& stop)>;
 
     // Looks at once, and then after each interval; 0: only when asked to.
@@ -30,7 +30,7 @@ class FolderWatcher {
 
     // Looks again now, without waiting for changes to settle; from any thread.
     void look_now();
-    // Asks it to end, and does not wait for that.
+    // Asks the thread to end, and does not wait for it.
     void stop();
     // A look is under way.
     [[nodiscard]] bool is_looking() const { return is_looking_.load(); }

@@ -10,8 +10,8 @@
 
 namespace relume::net {
 
-// Whether a change must look the same at two looks before it is followed: what is still being
-// copied is not opened at every look.
+// Whether a change is followed only after two looks have seen the same, so that a file that is
+// still being copied is not opened at every look.
 enum class Patience : std::uint8_t { none, until_settled };
 
 // Looks at names, sizes, times and identities; reads no file. Not thread-safe.
@@ -27,11 +27,11 @@ class FollowedFolder {
         std::filesystem::path entry;
         bool is_gone = false;
     };
-    // What is to be followed now, in the order of names; each change is told once. Throws
-    // std::runtime_error when the folder cannot be listed.
+    // Looks, and returns the changes to be followed, in the order of names. Each change is
+    // returned once. Throws std::runtime_error when the folder cannot be listed.
     [[nodiscard]] std::vector<Change> look(const std::filesystem::path& folder,
                                            Patience patience);
-    // At the last look, more entries were there than are followed: so many in all, else 0.
+    // The number of entries at the last look, if they were more than are followed; else 0.
     [[nodiscard]] std::size_t too_many() const { return too_many_; }
     // Those that were there at the last look.
     [[nodiscard]] std::vector<std::filesystem::path> entries() const;

@@ -8,8 +8,8 @@
 
 namespace relume::net {
 
-// Holds shared pointers only so that they do not die between two uses; who uses one holds it
-// too, so letting go here never takes it from anyone. Thread-safe.
+// Holds shared pointers only so that their objects survive between two uses. Who uses an object
+// holds it as well, so that nobody loses it when the cache lets go. Thread-safe.
 class ResidentCache {
   public:
     explicit ResidentCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}

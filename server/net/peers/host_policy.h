@@ -1,6 +1,6 @@
-// Under which names the server may be asked. A page from elsewhere whose own name is made to
-// point here (DNS rebinding) has the server's address, and for the browser its origin; only the
-// Host field tells.
+// The names under which the server answers. A page from elsewhere can make its own name point
+// here (DNS rebinding). It then has, for the browser, the server's origin; only the Host field
+// tells the two apart.
 #pragma once
 
 #include <boost/asio/ip/address.hpp>

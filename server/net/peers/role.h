@@ -6,8 +6,8 @@
 namespace relume::net {
 
 enum class Role : std::uint8_t {
-    none,    // may not watch a room, edit one or upload
-    editor,  // may do all of that
+    none,    // may not enter a room or upload
+    editor,  // may watch, edit and upload
 };
 
 }  // namespace relume::net

@@ -50,18 +50,19 @@ class Audience {
     // Since when; nothing while somebody is here.
     [[nodiscard]] std::optional<Clock::time_point> empty_since() const { return empty_since_; }
 
-    // Somebody would be sent an image of an unsettled state now.
+    // Whether an image of an unsettled state would be sent to anybody without waiting.
     [[nodiscard]] bool wants_moving_image() const;
-    // In all forms that such an image is asked for.
+    // The forms in which these viewers ask for such an image.
     [[nodiscard]] ImageForms moving_forms() const;
 
-    // The author gets the id of the edit back. Who reads too slowly for one more change gets
-    // the snapshot that holds it, which is made only then.
+    // Tells every viewer of the change, and its author the id of the edit. A viewer who reads
+    // too slowly for one more change gets a snapshot that holds it; `snapshot` makes it only
+    // then.
     void tell_change(const DocumentChange& change,
                      const std::function<SharedSnapshot()>& snapshot);
     void tell_size();
     void tell_problem(const wire::ErrorMessage& problem);
-    // To each in the form that is his.
+    // Gives every viewer the frame in the form that this viewer asks for.
     void show(const ImageFrames& frames);
     // Ends every connection once its outbox is empty.
     void close_all(wire::CloseCode code);

@@ -38,16 +38,17 @@ class Document {
                                       const wire::Edit& edit,
                                       const wire::Limits& limits,
                                       const EnvironmentLibrary& library);
-    // Takes the map that is now behind a name, where the state names it: the change names it
-    // once more. Nothing where it does not.
+    // Another map has taken its place behind `name`. Where the state names it, the state takes
+    // the new map, and the change that is returned names it once more; otherwise nothing
+    // happens.
     [[nodiscard]] std::optional<DocumentChange> environment_replaced(
         const std::string& name, const EnvironmentLibrary& library);
 
     [[nodiscard]] const wire::RoomState& state() const { return state_; }
     [[nodiscard]] const NamedEnvironments& environments() const { return environments_; }
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
-    // The last one that may have changed linear pixels: an image of it, or of a later
-    // revision, shows the state, whatever display and policy have become since.
+    // The last revision that may have changed linear pixels. An image of this or a later
+    // revision has the linear pixels of the state; display and policy may have changed since.
     [[nodiscard]] std::uint64_t revision_of_pixels() const { return revision_of_pixels_; }
 
   private:

@@ -1,5 +1,5 @@
-// How edits of a room follow one another, so that what may wait is not begun where the next one
-// is about to come.
+// The rhythm in which edits of a room follow one another. By it a room avoids to begin work
+// that can wait when the next edit is about to come.
 #pragma once
 
 #include "server/net/base/clock.h"
@@ -11,9 +11,9 @@ class EditRhythm {
   public:
     void edit_came(Clock::time_point at);
 
-    // When work that makes nobody's edit visible, and takes about so long, should begin: at
-    // once where it ends before the next edit of a drag, or there is no drag; else when that
-    // edit has failed to come.
+    // When work that shows nobody's edit, and takes about so long, should begin: at once where
+    // nobody drags or where it ends before the next edit is expected, otherwise when that edit
+    // is overdue.
     [[nodiscard]] Clock::time_point time_for(Clock::duration work, Clock::time_point now) const;
 
   private:

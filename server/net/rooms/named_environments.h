@@ -18,9 +18,9 @@ struct NamedEnvironments {
     friend bool operator==(const NamedEnvironments&, const NamedEnvironments&) = default;
 };
 
-// Those of the state that a normalised patch has led to. What the patch does not name stays as
-// it was; an upload that it names again is taken in its latest version. Throws
-// wire::WireError (unknown_name).
+// The environments of `state`, which `patch` (normalised) has made of the state before. A map
+// that the patch does not name stays as it was, and one that it names again is taken in its
+// latest version. Throws wire::WireError (unknown_name).
 [[nodiscard]] NamedEnvironments environments_after(const NamedEnvironments& before,
                                                    const wire::RoomState& state,
                                                    const nlohmann::json& patch,

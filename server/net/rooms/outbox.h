@@ -33,7 +33,8 @@ class Outbox {
     };
     using Item = std::variant<std::string, SharedImageFrame, Close>;
 
-    // All else that a patch can name is of a fixed number.
+    // The bound of a merged change: all that a patch can name besides lights is fixed in
+    // number.
     static constexpr std::size_t kMaxMergedLights = 256;
 
     Outbox(ImageInterest interest, const wire::Limits& limits);

@@ -1,5 +1,5 @@
-// What one room computes: its state as light, the light through the engine, the image composed.
-// Each edit runs again only the stages that it concerns, and what comes after them.
+// What one room computes: light from its state, sums from the light, an image from the sums.
+// After an edit only the stages that it touches run again, and those that follow from them.
 #pragma once
 
 #include "protocol/wire/messages.h"
@@ -28,40 +28,41 @@ namespace relume::net {
 // Not thread-safe: a room calls it from one worker at a time.
 class Relighter {
   public:
-    // `ceiling`: of one call of advance_together.
+    // `ceiling` is the longest that one call of advance_together takes.
     Relighter(std::shared_ptr<const ServedScene> scene,
               Metrics& metrics,
               Clock::duration ceiling);
 
-    // What the image is to show from now on, which differs from the state before in these
-    // stages (in all of them at first): no other is run again. New light begins a new step. An
-    // environment that cannot be decoded is black, and named in the result.
+    // Gives the state that images show from now on. `stages` are those in which it differs from
+    // the state before (all of them in the first call); no other stage runs again. New light
+    // begins a new step. An environment that cannot be decoded is black, and the result names
+    // it.
     std::vector<wire::ErrorMessage> set_state(const wire::RoomState& state,
                                               const NamedEnvironments& environments,
                                               wire::Stages stages);
 
-    // A slice of relighting for each, all of one scene and not at rest, in one sweep over the
-    // transport: as much as the state's budget has left for the step, but for no longer than
-    // the ceiling.
+    // Relights a slice for each, in one sweep over the transport: as much as the budget of its
+    // state leaves for the step, but no longer than the ceiling. All are of one scene and none
+    // is at rest.
     static void advance_together(std::span<Relighter* const> relighters);
-    // The image holds what the budget allows, and may be shown.
+    // Whether the image holds what the budget allows, and may be shown.
     [[nodiscard]] bool step_is_complete() const;
-    // The image is still of the light before.
+    // Whether the image is still that of the light before.
     [[nodiscard]] bool shows_state_before() const { return session_.shows_target_before(); }
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
     [[nodiscard]] double stated_error() const { return session_.stated_error(); }
-    // The image, or a JPEG of it, differs from the one composed last.
+    // Whether the image, or a JPEG of it, would differ from the one composed last.
     [[nodiscard]] bool image_changed() const { return image_changed_; }
     // Rises whenever the image's linear pixels may have changed.
     [[nodiscard]] std::uint64_t pixels() const { return pixels_; }
 
-    // The image as it stands, composed; the picture before must have been encoded.
+    // Composes the image as it stands. The picture before must have been encoded.
     [[nodiscard]] Picture picture(const ImageStamp& stamp,
                                   const ImageForms& forms,
                                   int jpeg_quality);
-    // What an image takes besides being lit, relit and composed: to wait for a thread, to be
-    // encoded.
+    // The milliseconds that an image of this room spends outside this class: waiting for a
+    // worker, and being encoded. The budget of later steps is smaller by them (StepBudget).
     void set_beside(double milliseconds) { budget_.set_beside(milliseconds); }
 
   private:

@@ -31,7 +31,7 @@ struct RoomOptions {
     wire::Limits limits;
     // Of `limits.clients_per_room`, those of one address.
     std::size_t clients_per_address = 32;
-    // A state that nobody changed for so long gets its bit-exact image.
+    // A state that nobody has changed for so long is settled, and gets its exact image.
     std::chrono::milliseconds settle_delay{50};
     ImageOptions images;
 };
@@ -70,8 +70,8 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
 
     // Throws wire::WireError; the state is then as before.
     void edit(ViewerId author, const wire::Edit& edit, Clock::time_point read_at);
-    // The map behind a name has changed: who is lit by it is relit. Viewers get a change that
-    // names it again.
+    // Another map has taken its place behind the name. If the room is lit by it, it is relit,
+    // and its viewers get a change that names the map again.
     void environment_replaced(const std::string& name);
     void acknowledge(ViewerId viewer, std::uint64_t sequence);
 
@@ -95,6 +95,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
 
     [[nodiscard]] std::optional<RoomSlice> begin_slice();
     static void perform(std::span<Running> slices);
+    // Brings into the slice whether the encoder is free and a viewer ready.
     void look_who_is_ready(RoomSlice& slice) const;
     void look_who_is_ready_locked(RoomSlice& slice) const;
     void end_slice(const RoomSlice& slice, SliceResult result);
@@ -122,7 +123,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     Audience audience_;
     Schedule schedule_;
     std::uint64_t taken_revision_ = 0;  // of the state that the images are of
-    // The latest, if the document's pixels are still those that it shows.
+    // The latest settled image, as long as it shows the pixels of the document.
     SharedImageFrame settled_image_;
     bool stopped_ = false;
 

@@ -1,4 +1,4 @@
-// A room's images: its state relit, slice by slice, and which image is due when.
+// A room's images: relights its state slice by slice, and says which image is due.
 #pragma once
 
 #include "server/net/base/metrics.h"
@@ -17,25 +17,27 @@ namespace relume::net {
 struct ImageOptions {
     // While an image converges, the least time between two of them.
     std::chrono::milliseconds refinement_interval{33};
-    // The longest that a slice relights, whatever a room's budget: others wait no longer.
+    // The longest that a slice relights, whatever a room's budget, so that other rooms get
+    // their turn.
     std::chrono::milliseconds slice_ceiling{16};
     int moving_jpeg_quality = 80;
     int converging_jpeg_quality = 95;
 };
 
-// Not thread-safe: the room's slice has it to itself. A slice is `begin`, then relighting
-// unless there is nothing to relight, then `end`.
+// Not thread-safe: the room's one slice has it to itself. A slice calls `begin`, then relights
+// unless there is nothing to relight, then calls `end`.
 class RoomImages {
   public:
     RoomImages(std::shared_ptr<const ServedScene> scene,
                Metrics& metrics,
                const ImageOptions& options);
 
-    // Takes the slice's state over; what of it cannot be shown is told.
+    // Takes over the slice's state. Returns what of it cannot be shown.
     [[nodiscard]] std::vector<wire::ErrorMessage> begin(const RoomSlice& slice);
-    // Null when nothing is left to do, or an edit's image can be composed as it stands.
+    // What the slice relights; null where nothing is left to relight, or where an edit's image
+    // can be composed from the sums as they are.
     [[nodiscard]] Relighter* next_to_relight(const RoomSlice& slice);
-    // The picture that is due now, if one is and the encoder is free.
+    // The result, with the picture that is due, if one is and the encoder is free.
     [[nodiscard]] SliceResult end(const RoomSlice& slice);
 
     // Forgets the image after a failure; the next state begins afresh.

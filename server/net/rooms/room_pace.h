@@ -1,4 +1,4 @@
-// What the images of a room take, and when work on them that can wait should begin.
+// How long the images of a room take, and when a refinement of them should begin.
 #pragma once
 
 #include "server/net/base/clock.h"
@@ -10,16 +10,16 @@ namespace relume::net {
 class RoomPace {
   public:
     void edit_came(Clock::time_point at) { rhythm_.edit_came(at); }
-    // An edit was read, and taken up by a slice that gave its picture.
+    // The time from reading an edit to the slice that made its picture.
     void edit_waited(Clock::duration time) { blend(waiting_ms_, time); }
     void slice_took(Clock::duration time) { slice_took_ = time; }
     // From a picture to its JPEG, waiting for the encoder included.
     void encoding_took(Clock::duration time) { blend(encoding_ms_, time); }
 
-    // Between an edit and its image, but for its slice.
+    // What an image takes from edit to JPEG outside its slices: waiting for a worker, encoding.
     [[nodiscard]] double beside_slice_ms() const { return waiting_ms_ + encoding_ms_; }
-    // When to make the image better, so that the next edit's image does not have to wait until
-    // that is relit and encoded.
+    // When a refinement should begin, so that the image of the next edit does not have to wait
+    // for it.
     [[nodiscard]] Clock::time_point time_to_refine(Clock::time_point now) const {
         return rhythm_.time_for(slice_took_ + from_milliseconds(encoding_ms_), now);
     }

@@ -1,4 +1,4 @@
-// One slice of a room's work: what it needs to know, and what came of it.
+// One slice of a room's work: what it is given, and what it gives back.
 #pragma once
 
 #include "protocol/wire/messages.h"
@@ -21,9 +21,9 @@ struct RoomSlice {
     NamedEnvironments environments;
     std::uint64_t revision = 0;  // of the state that is relit
     bool settled_image_due = false;
-    // An earlier settled image: if nothing has been relit since, it shows this state too.
+    // An earlier settled image. If nothing has been relit since, it shows this state as well.
     SharedImageFrame standing;
-    // As these are when the slice begins, and again when a picture may be due:
+    // Taken when the slice begins, and anew when a picture may be due:
     bool encoder_is_free = false;
     bool viewer_is_ready = false;  // for an image of an unsettled state
     ImageForms moving_forms;       // in which such an image is asked for
@@ -33,7 +33,7 @@ struct SliceResult {
     std::vector<wire::ErrorMessage> problems;
     SliceOutcome outcome;
     std::optional<Picture> picture;  // to be encoded
-    SharedImageFrame restamped;      // the standing image, as one of this revision
+    SharedImageFrame restamped;      // `standing` under this revision, to be sent again
 };
 
 }  // namespace relume::net

@@ -22,7 +22,7 @@ namespace relume::net {
 
 struct RoomsOptions {
     RoomOptions room;
-    // A room that everybody left is kept so long.
+    // How long a room is kept after its last viewer has left.
     std::chrono::milliseconds linger{std::chrono::minutes(5)};
     // What a new room's state begins with.
     std::string environment = "sky-afternoon";
@@ -44,8 +44,8 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     struct Visitor {
         Role role = Role::none;
         Audience::SharedOutbox outbox;
-        // The quota_key: a room that is made for him counts as this address's until it is
-        // dropped.
+        // The quota_key. A room that is made for this visitor counts as this address's until
+        // the room is dropped.
         std::string address;
     };
     struct Entered {
@@ -64,8 +64,9 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
                                                        const Visitor& visitor);
     void leave(Room& room, ViewerId viewer);
 
-    // Scenes have been added, replaced or removed. A room keeps the scene it began with as long
-    // as anybody is in it; one that is empty gives way.
+    // Has to be called when scenes have been added, replaced or removed. A room keeps the scene
+    // that it began with as long as anybody is in it; an empty room of another scene is
+    // dropped.
     void drop_outdated();
 
     // As Room::environment_replaced, for all.
@@ -79,7 +80,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
 
   private:
-    // The room of that name, made if need be.
+    // The room of that name, which is made where there is none.
     [[nodiscard]] std::variant<std::shared_ptr<Room>, Refusal> room_locked(
         const std::string& name,
         const std::optional<std::string>& scene,
@@ -89,7 +90,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
         std::string creator;
         AddressQuota::Place place;
     };
-    // Of one creator, or of all.
+    // Drops the longest empty room of one creator, or of all; false where none is empty.
     [[nodiscard]] bool drop_longest_empty_locked(const std::optional<std::string>& creator);
     // Null when there is none left, even after dropping an empty one.
     [[nodiscard]] AddressQuota::Place place_for_room_locked(const std::string& creator);
@@ -101,7 +102,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     const RoomThreads threads_;
     Metrics& metrics_;
     const RoomsOptions options_;
-    // Used when the library has lost it.
+    // What a new room begins with, even where the library does not offer it any more.
     const std::shared_ptr<Environment> first_environment_;
 
     mutable std::mutex mutex_;

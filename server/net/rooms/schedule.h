@@ -22,7 +22,7 @@ struct SliceOrder {
     bool first_image_due = false;    // of an edit, once its step is complete
     Clock::time_point edit_read_at;  // of the edit that its image answers
     Clock::time_point settle_at;     // when the state has rested for long enough
-    // What an image has been taking besides its slices: to wait for a worker, to be encoded.
+    // The mean of what an image spends outside its slices: waiting for a worker, being encoded.
     double beside_ms = 0;
 };
 
@@ -43,24 +43,24 @@ class Schedule {
   public:
     Schedule(Clock::duration settle_delay, Clock::time_point now);
 
-    // By an edit of a viewer that was read then.
+    // A viewer's edit, read at `read_at`, has changed the state in these stages.
     void state_edited(wire::Stages stages, Clock::time_point read_at);
-    // By the server.
+    // The server itself has changed the state in these stages.
     void state_changed(wire::Stages stages, Clock::time_point at);
 
     // Between these two no other slice of the room may run.
     [[nodiscard]] bool is_running() const { return is_running_; }
     [[nodiscard]] SliceOrder begin_slice(Clock::time_point now);
     void end_slice(const SliceOrder& order, const SliceOutcome& outcome, Clock::time_point now);
-    // It has thrown: the state is to be taken anew, whole.
+    // The slice has thrown. The next one takes the state as a whole.
     void slice_failed();
 
     // One picture at a time is being encoded.
     [[nodiscard]] bool is_encoding() const { return is_encoding_; }
     void encoding_ended();
-    // The image is to be made anew.
+    // The picture is lost, and its image is made again.
     void encoding_failed();
-    // It took so long, waiting for the encoder included.
+    // The time from a picture to its bytes, waiting for the encoder included.
     void encoding_took(Clock::duration time) { pace_.encoding_took(time); }
 
     struct Due {
@@ -71,8 +71,8 @@ class Schedule {
         bool settled_image_is_current = false;
         bool viewer_is_ready = false;  // for an image of an unsettled state
     };
-    // The next slice, unless one is running: its end asks again. Nothing for a room that
-    // rests.
+    // The next slice. Nothing for a room that rests, nor while a slice runs: its end asks
+    // again.
     [[nodiscard]] std::optional<Due> next_due(const Conditions& conditions,
                                               Clock::time_point now) const;
     // An edit's image waits for the encoder, or for a viewer who would take it.

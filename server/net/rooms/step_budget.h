@@ -1,4 +1,4 @@
-// What of an image's time is left for relighting it, and what its slices have spent of that.
+// How much of an image's time is for relighting, and how much of that its slices have spent.
 #pragma once
 
 #include "protocol/relighting/budget.h"
@@ -8,37 +8,37 @@
 
 namespace relume::net {
 
-// A budget in milliseconds is for the whole way from edit to encoded picture: what lighting,
-// composing and waiting have been taking is not for relighting. Not thread-safe.
+// A budget in milliseconds is for the whole way from edit to encoded picture. What lighting,
+// composing, waiting and encoding take of it on average is not for relighting. Not thread-safe.
 class StepBudget {
   public:
     // `ceiling_ms`: the longest that a slice relights.
     explicit StepBudget(double ceiling_ms) : ceiling_ms_(ceiling_ms) {}
 
-    // What has been measured; running means are kept of it.
+    // A measured time, of which a running mean is kept.
     void composing_took(double milliseconds);
-    // Of an image besides lighting, relighting and composing: to wait for a thread, to be
-    // encoded.
+    // The milliseconds of an image that are neither lighting nor relighting nor composing:
+    // waiting for a worker, being encoded.
     void set_beside(double milliseconds) { beside_ms_ = milliseconds; }
 
-    // A step begins, for new light, which it took so long to make.
+    // A step of new light begins, which it took `lighting_ms` to make.
     void begin_step(double lighting_ms);
-    // A slice of it has relit for so long.
+    // A slice of the step has relit for so long and added so many columns.
     void slice_took(double milliseconds, std::uint32_t columns);
 
-    // The step has nothing left of the budget that a slice would be worth.
+    // Whether what the step has left of the budget is too little for another slice.
     [[nodiscard]] bool is_spent(const relighting::Budget& budget) const;
-    // For the next slice of one of so many images that are made together: what the step has
-    // left, or all of the budget again where it has nothing left.
+    // The budget of the next slice of an image that is made together with others, `images` in
+    // all: what the step has left, or, where it has nothing left, the whole budget again.
     [[nodiscard]] relighting::Budget for_slice(const relighting::Budget& budget,
                                                std::size_t images) const;
-    // Of a slice, in milliseconds.
+    // The longest that a slice relights.
     [[nodiscard]] double ceiling_ms() const { return ceiling_ms_; }
     // The mean of what it has taken to make new light.
     [[nodiscard]] double lighting_ms() const { return lighting_ms_; }
 
   private:
-    // The step's, before any of it is spent.
+    // The budget of the step, before any of it is spent.
     [[nodiscard]] relighting::Budget for_step(const relighting::Budget& budget,
                                               std::size_t images) const;
 

@@ -1,4 +1,4 @@
-// One who is in a room: who they are for its history, and what they may do.
+// Somebody in a room: an id, by which the room's history names them, and what they may do.
 #pragma once
 
 #include "server/net/peers/role.h"
@@ -7,7 +7,7 @@
 
 namespace relume::net {
 
-// Differs between all viewers that a server has ever let into its rooms.
+// Unique among all viewers that a server ever lets into its rooms.
 enum class ViewerId : std::uint64_t {};
 
 struct Viewer {

@@ -14,11 +14,11 @@
 
 namespace relume::net {
 
-// Until when an item has had its part of the workers: as if each of the items that compete were
-// given an equal part of every moment. Kept by the pool.
+// The time until which an item has used up its part of the workers, if every item that competes
+// has an equal part. The pool keeps it.
 class WorkAccount {
   public:
-    // The item ran for so long, from `begin` on, while so many competed.
+    // The item has run for `taken`, from `begin` on, while so many items competed.
     void charge(Clock::time_point begin, Clock::duration taken, std::size_t competitors);
     [[nodiscard]] Clock::time_point paid_until() const { return paid_until_; }
 
@@ -34,8 +34,8 @@ class WorkItem {
     WorkItem& operator=(const WorkItem&) = delete;
     virtual ~WorkItem() = default;
 
-    // Names the item's company. Items of one company may run together; an item that gives null
-    // runs alone.
+    // Items of one company may run together; equal pointers mean one company. An item that
+    // gives null runs alone.
     [[nodiscard]] virtual const void* company() const noexcept { return nullptr; }
     // Runs one slice, of this item and of `others`: members of its company that were waiting
     // too, and have left the queue with it.

@@ -20,7 +20,7 @@ double error_from_importance(float importance, Norm norm) {
     return norm == Norm::l1 ? std::sqrt(double{importance}) : double{importance};
 }
 
-// Columns of a band, as places in Scene::columns_by_band.
+// Columns of a band, as places in ColumnTable::by_band.
 struct Places {
     std::size_t first = 0;
     std::size_t count = 0;

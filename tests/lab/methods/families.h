@@ -9,9 +9,9 @@ namespace relume::lab {
 
 // nwa, bi, pbi, guarded: what the server runs.
 void add_session_families(std::vector<MethodFamily>& families);
-// pbi-dealer, pbi-exhaustive: which bands begin anew, chosen with more care.
+// pbi-l2, pbi-dealer, pbi-exhaustive and their likes in L2: selectors of [Overbeck06T 6.2].
 void add_selector_families(std::vector<MethodFamily>& families);
-// sh, pbi-sh: the same view in spherical harmonics.
+// sh, pbi-sh, pbi-sh-filled: the same view in spherical harmonics.
 void add_sh_families(std::vector<MethodFamily>& families);
 
 }  // namespace relume::lab
