@@ -8,7 +8,7 @@
 
 namespace relume::view {
 
-// A block's part of an image, RGB interleaved.
+// Where the pixels of a block lie in an image, RGB interleaved.
 struct BlockPixels {
     float* first;            // of the upper left pixel
     std::size_t row_floats;  // from a row of the image to the next
@@ -16,9 +16,10 @@ struct BlockPixels {
     std::uint32_t rows;
 };
 
-// Pixels are the receivers of sums [3][256] (protocol/transport/block_basis.h) times tint
-// [3][256], in that order of operations: the same bits on every instruction set as
-// transport::block_receivers_from_coefficients and a multiplication.
+// Transforms the sums of a block, [3][256], from the basis of the block to its receivers
+// (protocol/transport/block_basis.h), multiplies these by the tint, [3][256], and writes them
+// as pixels. Every instruction set gives the bits of
+// transport::block_receivers_from_coefficients followed by a multiplication.
 void write_block_pixels(const float* sums, const float* tint, const BlockPixels& pixels);
 
 }  // namespace relume::view

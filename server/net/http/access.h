@@ -19,11 +19,11 @@ class Access {
     Access(std::string token, OriginPolicy origins, HostPolicy hosts)
         : token_(std::move(token)), origins_(std::move(origins)), hosts_(std::move(hosts)) {}
 
-    // Of who brings the server's token, or whoever comes where it asks for none: an editor's.
-    // The token comes as `Authorization: Bearer`, among the subprotocols, or as `token=` in the
-    // query; the first of these that is there counts.
+    // `editor` for a request with the server's token, or for any request where the server asks
+    // for none. The token comes as `Authorization: Bearer`, among the subprotocols, or as
+    // `token=` in the query; the first of these that is there counts.
     [[nodiscard]] Role role_of(const HttpRequest& request) const;
-    // Whatever is asked for.
+    // Whether the server answers under this name, whatever is asked for.
     [[nodiscard]] bool allows_host(std::string_view host) const { return hosts_.allows(host); }
     [[nodiscard]] bool allows_origin(const HttpRequest& request) const {
         return origins_.allows(request.origin, request.host);

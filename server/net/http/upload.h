@@ -34,7 +34,7 @@ struct UploadOptions {
     std::uint64_t texels = 0;
     std::size_t concurrent = 0;
     std::size_t per_address = 0;     // of the concurrent ones
-    std::uint64_t memory_bytes = 0;  // all uploads, decoded; and beside its programs a decoder
+    std::uint64_t memory_bytes = 0;  // of all uploads, decoded; a decoder gets as much
     std::filesystem::path decoder;   // relume-decode; empty: beside the running program
 };
 
@@ -49,9 +49,9 @@ class Uploads {
 
     // Everything that can be said before the body is read: a refusal, or a place.
     [[nodiscard]] std::variant<HttpReply, Upload> admit(const HttpRequest& request);
-    // Decodes in a child process (seconds: not for threads that serve sockets), and offers the
-    // environment under its name. A decoder is ended when `stop` asks for it: nobody waits
-    // then.
+    // Decodes in a child process, and offers the environment under its name. Takes seconds: not
+    // for threads that serve sockets. `stop` ends the decoder, when nobody waits for it any
+    // more.
     [[nodiscard]] HttpReply finish(const Upload& upload,
                                    std::span<const std::byte> body,
                                    std::stop_token stop = {});

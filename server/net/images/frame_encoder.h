@@ -17,7 +17,8 @@ class FrameEncoder {
   public:
     explicit FrameEncoder(Metrics& metrics) : metrics_(metrics) {}
 
-    // In each of the picture's forms. Throws std::runtime_error naming what the codec said.
+    // Encodes the picture in each of its forms. Throws std::runtime_error naming what the codec
+    // said.
     [[nodiscard]] ImageFrames encode(const Picture& picture);
 
   private:

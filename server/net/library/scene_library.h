@@ -2,9 +2,9 @@
 #pragma once
 
 #include "protocol/wire/scene_summary.h"
-#include "server/scene/scene.h"
 #include "server/net/images/sky_pixels.h"
 #include "server/net/library/followed_folder.h"
+#include "server/scene/scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -39,12 +39,12 @@ class SceneLibrary {
     static constexpr std::size_t kMaxScenes = 1024;
     static constexpr std::size_t kMaxThumbnailBytes = std::size_t{4} << 20;
 
-    // Offers what lies in the folder now: opens and checks what is new or has changed, one
-    // after another, each in parallel within; forgets what is gone. One that cannot be opened
-    // is named in the log once, and left out or offered on as it was. True if anything is
-    // offered that was not, or the other way round. Throws std::runtime_error if the folder
-    // itself cannot be read. One thread at a time refreshes, while others ask; when a stop is
-    // asked for it opens no further scene.
+    // Brings the offer up to date with the folder. Opens and checks scenes that are new or have
+    // changed, one after another, each on all threads of the caller's arena; drops those that
+    // are gone. A scene that cannot be opened is named in the log once; what was offered under
+    // its name stays. True if the offer has changed. Throws std::runtime_error if the folder
+    // itself cannot be read. Only one thread at a time may refresh; others may ask meanwhile.
+    // Once a stop is asked for, it opens no further scene.
     bool refresh(const std::filesystem::path& folder,
                  Patience patience = Patience::none,
                  const std::stop_token& stop = {});

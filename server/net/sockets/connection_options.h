@@ -9,7 +9,7 @@ namespace relume::net {
 
 struct ConnectionOptions {
     std::size_t connections = 1024;  // open at once, of all kinds
-    // … of which clients of one address may hold so many; those of a trusted proxy do not
+    // Of these, so many for clients of one address. Connections of a trusted proxy do not
     // count.
     std::size_t connections_per_address = 256;
     std::uint32_t request_header_bytes = 16 * 1024;
