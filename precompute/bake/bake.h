@@ -15,9 +15,9 @@ inline constexpr std::uint32_t kStatingRows = 128;
 inline constexpr std::uint32_t kChoosingRows = 64;
 
 struct BakeProgress {
-    std::uint64_t pixels_done = 0;  // resumed shards included
-    std::uint64_t pixels_resumed = 0;
-    std::uint64_t pixels = 0;
+    std::uint64_t receivers_done = 0;  // resumed shards included
+    std::uint64_t receivers_resumed = 0;
+    std::uint64_t receivers = 0;
     std::uint64_t rays = 0;
 };
 

@@ -2,7 +2,6 @@
 
 #include "precompute/bake/base/error.h"
 #include "precompute/bake/image_file.h"
-#include "precompute/bake/receivers/receiver.h"
 #include "precompute/scene/shown_text.h"
 #include "precompute/scene/srgb.h"
 
@@ -22,18 +21,15 @@ namespace {
 // Rows far apart first, so that a scene in view is found soon.
 constexpr std::uint32_t kRowStride = 16;
 
-bool sees_something(const RayCaster& caster,
-                    const scene::Camera& camera,
-                    const BakeParameters& parameters) {
+bool sees_something(const PixelReceivers& pixels) {
+    const transport::TileGrid& image = pixels.image();
     std::atomic<bool> found = false;
-    for (std::uint32_t first = 0; first < std::min(kRowStride, parameters.height); ++first) {
-        const std::uint32_t rows = (parameters.height - first - 1) / kRowStride + 1;
+    for (std::uint32_t first = 0; first < std::min(kRowStride, image.height); ++first) {
+        const std::uint32_t rows = (image.height - first - 1) / kRowStride + 1;
         tbb::parallel_for(std::uint32_t{0}, rows, [&](std::uint32_t row) {
             const std::uint32_t y = first + row * kRowStride;
-            for (std::uint32_t x = 0; x < parameters.width && !found; ++x) {
-                const PixelView pixel =
-                    view_pixel(caster, camera, x, y, parameters.pixel_samples, parameters.seed);
-                if (!pixel.surfaces.empty()) {
+            for (std::uint32_t x = 0; x < image.width && !found; ++x) {
+                if (!pixels.view(x, y).surfaces.empty()) {
                     found = true;
                 }
             }
@@ -47,13 +43,11 @@ bool sees_something(const RayCaster& caster,
 
 }  // namespace
 
-void check_framing(const RayCaster& caster,
-                   const scene::Camera& camera,
-                   const BakeParameters& parameters) {
-    if (sees_something(caster, camera, parameters)) {
+void check_framing(const scene::Scene& scene, const PixelReceivers& pixels) {
+    if (sees_something(pixels)) {
         return;
     }
-    const scene::Scene& scene = caster.scene();
+    const scene::Camera& camera = pixels.camera();
     const Imath::Box3f box = scene.bounds();
     const Imath::V3d eye = scene.frame.world_from_position(camera.eye());
     const Imath::V3f& forward = camera.forward();
@@ -76,18 +70,17 @@ void write_preview(const std::filesystem::path& path,
                                     scene::shown_text(path.string())));
     }
     const RayCaster caster(scene);
-    const scene::Camera camera(scene.camera, parameters.width, parameters.height);
-    check_framing(caster, camera, parameters);
+    const PixelReceivers pixels(caster, parameters);
+    check_framing(scene, pixels);
     constexpr float kAmbient = 0.2F;
     constexpr float kBackdrop = 0.12F;
     FloatImage image{parameters.width, parameters.height, 3, {}};
     image.values.resize(std::size_t{3} * parameters.width * parameters.height);
     tbb::parallel_for(std::uint32_t{0}, parameters.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < parameters.width; ++x) {
-            const PixelView pixel =
-                view_pixel(caster, camera, x, y, parameters.pixel_samples, parameters.seed);
+            const PixelView pixel = pixels.view(x, y);
             Imath::V3f shown(kBackdrop * (1 - pixel.coverage));
-            for (const PixelSurface& surface : pixel.surfaces) {
+            for (const ReceiverSurface& surface : pixel.surfaces) {
                 const scene::Bsdf& bsdf = surface.point.bsdf;
                 const float lit = kAmbient + (1 - kAmbient) * surface.point.wo.z;
                 shown += (bsdf.diffuse_colour() + bsdf.specular_colour()) * surface.tint *

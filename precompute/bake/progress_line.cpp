@@ -19,9 +19,10 @@ std::string clock_text(double seconds) {
 
 std::string progress_text(const BakeProgress& progress, double seconds) {
     const double done =
-        static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
-    const auto baked = static_cast<double>(progress.pixels_done - progress.pixels_resumed);
-    const auto left = static_cast<double>(progress.pixels - progress.pixels_done);
+        static_cast<double>(progress.receivers_done) / static_cast<double>(progress.receivers);
+    const auto baked =
+        static_cast<double>(progress.receivers_done - progress.receivers_resumed);
+    const auto left = static_cast<double>(progress.receivers - progress.receivers_done);
     const double rate = seconds > 0 ? baked / seconds : 0;
     const double rays = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
     std::string text = fmt::format("{:3.0f}%  {:.0f} pixels/s  {:.1f} Mrays/s  {} gone",
@@ -44,14 +45,14 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::update(const BakeProgress& progress) {
     const auto now = Clock::now();
-    const bool last = progress.pixels_done == progress.pixels;
+    const bool last = progress.receivers_done == progress.receivers;
     if (now < next_ && !last) {
         return;
     }
     next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10));
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double done =
-        static_cast<double>(progress.pixels_done) / static_cast<double>(progress.pixels);
+        static_cast<double>(progress.receivers_done) / static_cast<double>(progress.receivers);
     const std::string text = progress_text(progress, seconds);
     if (terminal_) {
         const auto cells = static_cast<std::size_t>(done * static_cast<double>(kBarCells));

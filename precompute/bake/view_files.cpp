@@ -2,7 +2,6 @@
 
 #include "precompute/bake/base/error.h"
 #include "precompute/bake/image_file.h"
-#include "precompute/bake/receivers/receiver.h"
 #include "precompute/bake/relight.h"
 #include "protocol/basis/cubemap.h"
 
@@ -82,23 +81,21 @@ void write_pictures(const std::filesystem::path& directory, const ViewImages& vi
 
 }  // namespace
 
-ViewImages view_images(const RayCaster& caster,
-                       const scene::Camera& camera,
-                       const BakeParameters& parameters) {
-    const std::size_t count = std::size_t{parameters.width} * parameters.height;
-    ViewImages view{.width = parameters.width,
-                    .height = parameters.height,
+ViewImages view_images(const PixelReceivers& pixels, double unit) {
+    const auto& [width, height] = pixels.image();
+    const std::size_t count = std::size_t{width} * height;
+    ViewImages view{.width = width,
+                    .height = height,
                     .coverage = std::vector<float>(count),
                     .albedo = std::vector<Imath::V3f>(count),
                     .depth = std::vector<float>(count)};
-    tbb::parallel_for(std::uint32_t{0}, parameters.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < parameters.width; ++x) {
-            const PixelView pixel =
-                view_pixel(caster, camera, x, y, parameters.pixel_samples, parameters.seed);
-            const std::size_t i = std::size_t{y} * parameters.width + x;
+    tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < view.width; ++x) {
+            const PixelView pixel = pixels.view(x, y);
+            const std::size_t i = std::size_t{y} * view.width + x;
             view.coverage[i] = pixel.coverage;
             view.albedo[i] = pixel.albedo;
-            view.depth[i] = pixel.depth * static_cast<float>(caster.scene().frame.unit);
+            view.depth[i] = pixel.depth * static_cast<float>(unit);
         }
     });
     return view;

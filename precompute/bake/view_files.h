@@ -1,9 +1,7 @@
 // What people and clients look at beside the transport: albedo, depth, a picture, a thumbnail.
 #pragma once
 
-#include "precompute/bake/base/parameters.h"
-#include "precompute/bake/rays/ray_caster.h"
-#include "precompute/scene/camera.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
 
 #include <Imath/ImathVec.h>
 
@@ -19,12 +17,11 @@ struct ViewImages {
     std::uint32_t height = 0;
     std::vector<float> coverage;
     std::vector<Imath::V3f> albedo;  // premultiplied by coverage
-    std::vector<float> depth;        // along the view axis; 0 where nothing is seen
+    std::vector<float> depth;  // along the view axis, world units; 0 where nothing is seen
 };
 
-[[nodiscard]] ViewImages view_images(const RayCaster& caster,
-                                     const scene::Camera& camera,
-                                     const BakeParameters& parameters);
+// `unit`: of the scene's frame, in world units.
+[[nodiscard]] ViewImages view_images(const PixelReceivers& pixels, double unit);
 
 // Writes view/albedo.exr, view/depth.exr, and view/picture.png with its small copy
 // view/thumbnail.png, relit from the finished transport in `directory` under a light of our

@@ -2,8 +2,8 @@
 
 #include "precompute/bake/blocks/colour_split.h"
 #include "precompute/bake/blocks/light_model.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/bake/rows/row_baker.h"
-#include "precompute/bake/rows/tile_window.h"
 #include "precompute/scene/builtin.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -14,38 +14,35 @@
 namespace relume::bench {
 namespace {
 
-using transport::kTileSide;
-
 class TileSampler {
   public:
     TileSampler(std::string_view scene,
                 const bake::BakeParameters& parameters,
                 const TestLights& lights)
         : lights_(lights),
-          image_{.width = parameters.width, .height = parameters.height},
           scene_(scene::build_builtin_scene(scene)),
-          camera_(scene_.camera, parameters.width, parameters.height),
           caster_(scene_),
+          receivers_(caster_, parameters),
           texels_(parameters.face_resolution, parameters.seed),
-          window_(caster_, camera_, parameters),
+          tracer_(caster_, parameters),
+          traced_(receivers_, tracer_, parameters),
           rows_(caster_, texels_, parameters),
-          pool_(window_, parameters.pool_radius),
-          quantisation_(bake::plan_quantisation(rows_, window_, image_, parameters)) {}
+          pool_(traced_),
+          quantisation_(bake::plan_quantisation(rows_, receivers_, tracer_, parameters)) {}
 
     [[nodiscard]] const bake::Quantisation& quantisation() const { return quantisation_; }
 
     // Tile rows must come in ascending order.
     [[nodiscard]] FloatTile sample(std::uint32_t tile_x, std::uint32_t tile_y) {
-        window_.move_to(tile_y * kTileSide, std::min((tile_y + 1) * kTileSide, image_.height));
+        const std::uint32_t block = tile_y * receivers_.image().tiles_x() + tile_x;
+        traced_.move_to(block, 1);
         const std::uint32_t channels = quantisation_.colour.channels;
         FloatTile tile{.rows = bake::BlockRows(texels_.size(), channels),
                        .pixels = std::vector<FloatTile::Pixel>(transport::kBlockSize)};
         std::vector<bake::ChannelRow> rows(transport::kBlockSize);
         tbb::parallel_for(std::uint32_t{0}, transport::kBlockSize, [&](std::uint32_t slot) {
-            const std::uint32_t x = tile_x * kTileSide + slot % kTileSide;
-            const std::uint32_t y = tile_y * kTileSide + slot / kTileSide;
-            if (x < image_.width && y < image_.height) {
-                sample_pixel(x, y, rows[slot], tile.pixels[slot]);
+            if (const auto receiver = receivers_.receiver_at(block, slot)) {
+                sample_pixel(traced_.at(*receiver), rows[slot], tile.pixels[slot]);
             }
         });
         for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
@@ -62,16 +59,14 @@ class TileSampler {
         bake::RowBaker::Scratch rows;
     };
 
-    void sample_pixel(std::uint32_t x,
-                      std::uint32_t y,
+    void sample_pixel(const bake::TracedReceiver& traced,
                       bake::ChannelRow& channels,
                       FloatTile::Pixel& pixel) {
-        const bake::TracedPixel& traced = window_.pixel(x, y);
-        if (traced.view.surfaces.empty()) {
+        if (traced.receiver.surfaces.empty()) {
             return;
         }
         Scratch& scratch = scratches_.local();
-        rows_.bake(traced, x, y, &pool_, scratch.row, scratch.rows);
+        rows_.bake(traced, &pool_, scratch.row, scratch.rows);
         bake::split_colours(quantisation_.colour, scratch.row, channels);
         pixel.covered = true;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -89,12 +84,12 @@ class TileSampler {
     }
 
     const TestLights& lights_;
-    transport::TileGrid image_;
     scene::Scene scene_;
-    scene::Camera camera_;
     bake::RayCaster caster_;
+    bake::PixelReceivers receivers_;
     bake::LightTexels texels_;
-    bake::TileWindow window_;
+    bake::PathTracer tracer_;
+    bake::TracedReceivers traced_;
     bake::RowBaker rows_;
     bake::PathPool pool_;
     bake::Quantisation quantisation_;

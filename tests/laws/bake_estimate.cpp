@@ -1,9 +1,9 @@
 #include "tests/laws/bake_estimate.h"
 
 #include "precompute/bake/bake.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
+#include "precompute/bake/rows/path_tracer.h"
 #include "precompute/bake/rows/row_baker.h"
-#include "precompute/bake/rows/tile_window.h"
-#include "precompute/scene/camera.h"
 #include "protocol/transport/transport.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -35,8 +35,8 @@ LinearImage relit_from_rows(const scene::Scene& scene,
                             const std::vector<Imath::V3f>& light) {
     const bake::RayCaster caster(scene);
     const bake::LightTexels texels(parameters.face_resolution, parameters.seed);
-    const scene::Camera camera(scene.camera, parameters.width, parameters.height);
-    const bake::TileWindow window(caster, camera, parameters);
+    const bake::PixelReceivers receivers(caster, parameters);
+    const bake::PathTracer tracer(caster, parameters);
     const bake::RowBaker rows(caster, texels, parameters);
     const std::size_t columns = rows.projection().basis().coefficient_count();
     std::array<std::vector<float>, 3> coefficients;
@@ -52,14 +52,12 @@ LinearImage relit_from_rows(const scene::Scene& scene,
         bake::CoefficientRow row;
     };
     tbb::enumerable_thread_specific<Scratch> scratches;
-    const std::size_t pixels = std::size_t{parameters.width} * parameters.height;
+    const std::size_t pixels = receivers.receiver_count();
     LinearImage image{parameters.width, parameters.height,
                       std::vector<V3d>(pixels, V3d(0, 0, 0))};
     tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t p) {
         Scratch& scratch = scratches.local();
-        const auto x = static_cast<std::uint32_t>(p % parameters.width);
-        const auto y = static_cast<std::uint32_t>(p / parameters.width);
-        rows.bake(window.trace(x, y), x, y, nullptr, scratch.row, scratch.rows);
+        rows.bake(tracer.trace(receivers.look(p)), nullptr, scratch.row, scratch.rows);
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t j = 0; j < columns; ++j)
                 image.pixels[p][static_cast<int>(c)] +=

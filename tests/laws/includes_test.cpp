@@ -34,6 +34,9 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
          {"precompute/bake/base", "precompute/scene", "protocol/basis", "protocol/transport"}},
         {"precompute/bake/receivers",
          {"precompute/bake/rays", "precompute/scene", "protocol/transport"}},
+        {"precompute/bake/receivers/pixel",
+         {"precompute/bake/base", "precompute/bake/rays", "precompute/bake/receivers",
+          "precompute/scene", "protocol/transport"}},
         {"precompute/bake/rows",
          {"precompute/bake/base", "precompute/bake/rays", "precompute/bake/receivers",
           "precompute/scene", "protocol/basis", "protocol/transport"}},
@@ -42,8 +45,8 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
           "precompute/bake/rows", "precompute/scene", "protocol/basis", "protocol/transport"}},
         {"precompute/bake",
          {"precompute/bake/base", "precompute/bake/blocks", "precompute/bake/rays",
-          "precompute/bake/receivers", "precompute/bake/rows", "precompute/scene",
-          "protocol/basis", "protocol/transport"}},
+          "precompute/bake/receivers", "precompute/bake/receivers/pixel",
+          "precompute/bake/rows", "precompute/scene", "protocol/basis", "protocol/transport"}},
         {"server/light", {"protocol/basis"}},
         {"server/engine/kernels", {"protocol/transport"}},
         {"server/engine/columns",
@@ -171,6 +174,10 @@ TEST(Includes, ForbiddenOnesAreSeen) {
               1U);
     EXPECT_EQ(
         forbidden("precompute/bake/rows/a.h", "#include \"precompute/bake/b.h\"\n").size(), 1U);
+    EXPECT_EQ(forbidden("precompute/bake/blocks/a.h",
+                        "#include \"precompute/bake/receivers/pixel/b.h\"\n")
+                  .size(),
+              1U);
     EXPECT_EQ(forbidden("server/engine/a.h", "  #  include <server/net/b.h>\n").size(), 1U);
     EXPECT_EQ(forbidden("protocol/basis/a.h", "#include \"protocol/transport/b.h\"\n").size(),
               1U);

@@ -41,7 +41,7 @@ ErrorMeter::ErrorMeter(const basis::CubemapProjection& projection,
     }
 }
 
-void ErrorMeter::measure_exact(const CoefficientRow& exact, PixelLight& light) const {
+void ErrorMeter::measure_exact(const CoefficientRow& exact, LitReceiver& light) const {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             light.exact[i][c] = inner_product(exact.rgb[c], lights_[i]);
@@ -51,7 +51,7 @@ void ErrorMeter::measure_exact(const CoefficientRow& exact, PixelLight& light) c
 
 void ErrorMeter::measure_stored(std::span<const float> stored,
                                 const Imath::V3f& tint,
-                                PixelLight& light) const {
+                                LitReceiver& light) const {
     const transport::ColourModel& colour = quantisation_.colour;
     const std::size_t columns = stored.size() / colour.channels;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
@@ -66,22 +66,20 @@ void ErrorMeter::measure_stored(std::span<const float> stored,
     }
 }
 
-BlockErrors ErrorMeter::errors(const std::array<PixelLight, 4>& pixels) {
+BlockErrors ErrorMeter::errors(const BlockPatch& patch, std::span<const LitReceiver> lit) {
     BlockErrors sums;
     for (std::size_t i = 0; i < kLightKinds * kLightsPerKind; ++i) {
         ErrorSums& sum = sums[i / kLightsPerKind];
         for (std::size_t c = 0; c < 3; ++c) {
             const auto error = [&](std::size_t p) {
-                return pixels[p].stored[i][c] - pixels[p].exact[i][c];
+                return lit[p].stored[i][c] - lit[p].exact[i][c];
             };
-            const auto value = [&](std::size_t p) { return pixels[p].exact[i][c]; };
-            for (std::size_t p = 0; p < pixels.size(); ++p) {
+            const auto value = [&](std::size_t p) { return lit[p].exact[i][c]; };
+            for (std::size_t p = 0; p < lit.size(); ++p) {
                 sum.error += error(p) * error(p);
                 sum.value += value(p) * value(p);
             }
-            constexpr std::array<std::array<std::size_t, 2>, 4> kNeighbours{
-                {{0, 1}, {2, 3}, {0, 2}, {1, 3}}};
-            for (const auto& [a, b] : kNeighbours) {
+            for (const auto& [a, b] : patch.neighbours) {
                 sum.gradient_error += std::pow(error(b) - error(a), 2);
                 sum.gradient += std::pow(value(b) - value(a), 2);
             }

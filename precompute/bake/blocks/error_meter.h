@@ -1,10 +1,11 @@
 // Measures what quantisation does to the image, under lights of the two kinds of light_model.h,
-// while the float rows are at hand: in 2×2 pixels of every tile, so that the error of the
-// image's gradient is seen too.
+// while the float rows are at hand: in a patch of neighbours of every block, so that the error
+// of the image's gradient is seen too.
 #pragma once
 
 #include "precompute/bake/blocks/colour_split.h"
 #include "precompute/bake/blocks/pilot.h"
+#include "precompute/bake/receivers/receivers.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -15,7 +16,7 @@
 
 namespace relume::bake {
 
-// Sums over pixels and lights, of one kind of light.
+// Sums over receivers and lights, of one kind of light.
 struct ErrorSums {
     double error = 0;           // Σ (B̃ − B)²
     double value = 0;           // Σ B²
@@ -33,19 +34,20 @@ class ErrorMeter {
     ErrorMeter(const basis::CubemapProjection& projection, const Quantisation& quantisation);
 
     static constexpr std::size_t kLightsPerKind = 4;
-    // B and B̃ of a pixel under every light, in red, green and blue.
-    struct PixelLight {
+    // B and B̃ of a receiver under every light, in red, green and blue.
+    struct LitReceiver {
         std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> exact{};
         std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> stored{};
     };
-    void measure_exact(const CoefficientRow& exact, PixelLight& light) const;
-    // `stored` is the pixel's row as stored, [K][N].
+    void measure_exact(const CoefficientRow& exact, LitReceiver& light) const;
+    // `stored` is the receiver's row as stored, [K][N].
     void measure_stored(std::span<const float> stored,
                         const Imath::V3f& tint,
-                        PixelLight& light) const;
+                        LitReceiver& light) const;
 
-    // Of the four measured pixels of a tile: upper left, upper right, lower left, lower right.
-    [[nodiscard]] static BlockErrors errors(const std::array<PixelLight, 4>& pixels);
+    // Of the slots of a patch; those without a row are black.
+    [[nodiscard]] static BlockErrors errors(const BlockPatch& patch,
+                                            std::span<const LitReceiver> lit);
 
   private:
     const Quantisation& quantisation_;

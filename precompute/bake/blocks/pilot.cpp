@@ -1,7 +1,7 @@
 #include "precompute/bake/blocks/pilot.h"
 
 #include "precompute/bake/blocks/colour_split.h"
-#include "precompute/bake/blocks/sample_tiles.h"
+#include "precompute/bake/blocks/sample_blocks.h"
 #include "precompute/bake/blocks/step_chooser.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -17,42 +17,32 @@ namespace {
 
 // Relative L2 below which one channel under a tint is enough.
 constexpr double kColourless = 1e-3;
-constexpr double kPixelsLookedAt = 16384;
-constexpr std::size_t kChromaPixels = 128;  // of each group
-constexpr SampleCount kPilotTiles{.every = 16, .least = 1, .most = 16};
+constexpr std::size_t kLookedAt = 16384;
+constexpr std::size_t kChromaReceivers = 128;  // of each group
+constexpr SampleCount kPilotBlocks{.every = 16, .least = 1, .most = 16};
 
-struct Pixel {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-};
+// Receivers of one kind among those looked at, and a few of them spread evenly.
+struct ReceiverGroup {
+    std::vector<std::size_t> all;
 
-// Pixels of one kind among those looked at, and a few of them spread evenly.
-struct PixelGroup {
-    std::vector<Pixel> all;
-
-    [[nodiscard]] std::vector<Pixel> some() const {
-        const std::size_t count = std::min(all.size(), kChromaPixels);
-        std::vector<Pixel> pixels;
+    [[nodiscard]] std::vector<std::size_t> some() const {
+        const std::size_t count = std::min(all.size(), kChromaReceivers);
+        std::vector<std::size_t> receivers;
         for (std::size_t i = 0; i < count; ++i) {
-            pixels.push_back(all[i * all.size() / count]);
+            receivers.push_back(all[i * all.size() / count]);
         }
-        return pixels;
+        return receivers;
     }
 };
 
-// Looks at pixels all over the image. Those in which surfaces meet are few, and it is there
-// that a pixel's colour depends on the light: they make a group of their own.
-std::array<PixelGroup, 2> pixel_groups(const TileWindow& window,
-                                       const transport::TileGrid& image) {
-    const double area = static_cast<double>(image.width) * image.height;
-    const auto spacing =
-        std::max(1U, static_cast<std::uint32_t>(std::sqrt(area / kPixelsLookedAt)));
-    std::array<PixelGroup, 2> groups;
-    for (std::uint32_t y = spacing / 2; y < image.height; y += spacing) {
-        for (std::uint32_t x = spacing / 2; x < image.width; x += spacing) {
-            if (const std::size_t surfaces = window.surface_count(x, y); surfaces > 0) {
-                groups[surfaces > 1 ? 1 : 0].all.push_back({x, y});
-            }
+// Looks at receivers everywhere. Those in which surfaces meet are few, and it is there that a
+// receiver's colour depends on the light: they make a group of their own.
+std::array<ReceiverGroup, 2> receiver_groups(const Receivers& receivers) {
+    std::array<ReceiverGroup, 2> groups;
+    for (const std::size_t receiver : receivers.spread_over_all(kLookedAt)) {
+        if (const std::size_t surfaces = receivers.look(receiver).surfaces.size();
+            surfaces > 0) {
+            groups[surfaces > 1 ? 1 : 0].all.push_back(receiver);
         }
     }
     return groups;
@@ -66,21 +56,21 @@ struct Scratch {
 
 // What one channel would lose of the image, as relative L2.
 double measure_chroma(const RowBaker& rows,
-                      const TileWindow& window,
-                      const transport::TileGrid& image) {
+                      const Receivers& receivers,
+                      const PathTracer& tracer) {
     tbb::enumerable_thread_specific<Scratch> scratches;
     ChromaResidual total;
-    for (const PixelGroup& group : pixel_groups(window, image)) {
-        const std::vector<Pixel> pixels = group.some();
-        std::vector<ChromaResidual> residuals(pixels.size());
-        tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    for (const ReceiverGroup& group : receiver_groups(receivers)) {
+        const std::vector<std::size_t> some = group.some();
+        std::vector<ChromaResidual> residuals(some.size());
+        tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
             Scratch& scratch = scratches.local();
-            const auto [x, y] = pixels[i];
-            rows.bake(window.trace(x, y), x, y, nullptr, scratch.row, scratch.rows);
+            rows.bake(tracer.trace(receivers.look(some[i])), nullptr, scratch.row,
+                      scratch.rows);
             residuals[i] = chroma_residual(scratch.row);
         });
         const double weight =
-            static_cast<double>(group.all.size()) / static_cast<double>(pixels.size());
+            static_cast<double>(group.all.size()) / static_cast<double>(some.size());
         for (const ChromaResidual& residual : residuals) {
             total.residual += weight * residual.residual;
             total.energy += weight * residual.energy;
@@ -89,43 +79,44 @@ double measure_chroma(const RowBaker& rows,
     return total.energy > 0 ? std::sqrt(total.residual / total.energy) : 0.0;
 }
 
-// Rows of some tiles, of the first channel: the same in both colour models but for a tint of
+// Rows of some blocks, of the first channel: the same in both colour models but for a tint of
 // the whole row.
-StepChooser look_at_tiles(const RowBaker& rows,
-                          const TileWindow& window,
-                          const transport::TileGrid& image,
-                          const BakeParameters& parameters) {
-    const std::vector<SampleTile> tiles =
-        sample_tiles(window, image, kPilotTiles, parameters.seed);
-    StepChooser chooser(signal_basis(parameters), tiles.size());
+StepChooser look_at_blocks(const RowBaker& rows,
+                           const Receivers& receivers,
+                           const PathTracer& tracer,
+                           const BakeParameters& parameters) {
+    const std::vector<std::uint32_t> blocks =
+        sample_blocks(receivers, kPilotBlocks, parameters.seed);
+    StepChooser chooser(signal_basis(parameters), blocks.size());
     tbb::enumerable_thread_specific<Scratch> scratches;
-    tbb::parallel_for(std::size_t{0}, tiles.size() * transport::kBlockSize, [&](std::size_t i) {
-        const std::size_t tile = i / transport::kBlockSize;
-        const auto slot = static_cast<std::uint32_t>(i % transport::kBlockSize);
-        const std::uint32_t x = tiles[tile].left + slot % transport::kTileSide;
-        const std::uint32_t y = tiles[tile].top + slot / transport::kTileSide;
-        if (x >= image.width || y >= image.height) {
-            return;
-        }
-        Scratch& scratch = scratches.local();
-        rows.bake(window.trace(x, y), x, y, nullptr, scratch.row, scratch.rows);
-        split_colours(grey_model(), scratch.row, scratch.channels);
-        chooser.set_row(tile, slot, scratch.channels.channel[0]);
-    });
+    tbb::parallel_for(
+        std::size_t{0}, blocks.size() * transport::kBlockSize, [&](std::size_t i) {
+            const std::size_t block = i / transport::kBlockSize;
+            const auto slot = static_cast<std::uint32_t>(i % transport::kBlockSize);
+            const auto receiver = receivers.receiver_at(blocks[block], slot);
+            if (!receiver) {
+                return;
+            }
+            Scratch& scratch = scratches.local();
+            rows.bake(tracer.trace(receivers.look(*receiver)), nullptr, scratch.row,
+                      scratch.rows);
+            split_colours(grey_model(), scratch.row, scratch.channels);
+            chooser.set_row(block, slot, scratch.channels.channel[0]);
+        });
     return chooser;
 }
 
 }  // namespace
 
 Quantisation plan_quantisation(const RowBaker& rows,
-                               const TileWindow& window,
-                               const transport::TileGrid& image,
+                               const Receivers& receivers,
+                               const PathTracer& tracer,
                                const BakeParameters& parameters) {
     Quantisation plan;
-    plan.chroma_residual = measure_chroma(rows, window, image);
+    plan.chroma_residual = measure_chroma(rows, receivers, tracer);
     plan.colour = plan.chroma_residual < kColourless ? grey_model() : luma_chroma_model();
     plan.steps =
-        look_at_tiles(rows, window, image, parameters).steps(parameters.bits, plan.colour);
+        look_at_blocks(rows, receivers, tracer, parameters).steps(parameters.bits, plan.colour);
     return plan;
 }
 

@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace relume::bake {
@@ -17,23 +18,20 @@ struct ShardBaker::Scratch {
 };
 
 struct ShardBaker::Block {
-    std::uint32_t number = 0;
     BlockRows& rows;
     std::span<float> tint;  // [3][256]
     // Of the slots in `stored`.
-    std::vector<ErrorMeter::PixelLight> measured;
+    std::vector<ErrorMeter::LitReceiver> measured;
     StoredRows stored;
 };
 
 ShardBaker::ShardBaker(const RowBaker& rows,
-                       const TileWindow& window,
-                       const transport::TileGrid& image,
-                       const Quantisation& quantisation,
-                       const BakeParameters& parameters)
+                       const TracedReceivers& traced,
+                       const Quantisation& quantisation)
     : rows_(rows),
-      window_(window),
-      pool_(window, parameters.pool_radius),
-      image_(image),
+      traced_(traced),
+      pool_(traced),
+      patch_(traced.receivers().patch()),
       quantisation_(quantisation),
       meter_(rows.projection(), quantisation) {}
 
@@ -69,20 +67,22 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
                                                std::uint64_t& rays,
                                                const Tick& tick) const {
     static thread_local Scratch scratch;
-    const std::uint32_t left = number % image_.tiles_x() * transport::kTileSide;
-    const std::uint32_t top = number / image_.tiles_x() * transport::kTileSide;
+    const Receivers& receivers = traced_.receivers();
     rows.clear();
-    Block block{.number = number, .rows = rows, .tint = tint, .measured = {}, .stored = {}};
-    const std::uint32_t bottom = std::min(top + transport::kTileSide, image_.height);
-    const std::uint32_t right = std::min(left + transport::kTileSide, image_.width);
-    for (std::uint32_t y = top; y < bottom; ++y) {
+    Block block{.rows = rows, .tint = tint, .measured = {}, .stored = {}};
+    constexpr std::uint32_t kSlotsPerTick = 16;
+    for (std::uint32_t first = 0; first < transport::kBlockSize; first += kSlotsPerTick) {
         const std::uint64_t before = scratch.rows.direct.visibility.rays;
-        for (std::uint32_t x = left; x < right; ++x) {
-            bake_pixel(x, y, block, scratch);
+        std::uint64_t baked = 0;
+        for (std::uint32_t slot = first; slot < first + kSlotsPerTick; ++slot) {
+            if (const auto receiver = receivers.receiver_at(number, slot)) {
+                bake_receiver(traced_.at(*receiver), slot, block, scratch);
+                ++baked;
+            }
         }
         const std::uint64_t cast = scratch.rows.direct.visibility.rays - before;
         rays += cast;
-        if (!tick(right - left, cast)) {
+        if (!tick(baked, cast)) {
             throw BakeInterrupted("stopped before all shards were finished");
         }
     }
@@ -91,18 +91,16 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
     return encoded;
 }
 
-void ShardBaker::bake_pixel(std::uint32_t x,
-                            std::uint32_t y,
-                            Block& block,
-                            Scratch& scratch) const {
-    const TracedPixel& pixel = window_.pixel(x, y);
-    if (pixel.view.surfaces.empty()) {
+void ShardBaker::bake_receiver(const TracedReceiver& receiver,
+                               std::uint32_t slot,
+                               Block& block,
+                               Scratch& scratch) const {
+    if (receiver.receiver.surfaces.empty()) {
         return;
     }
-    rows_.bake(pixel, x, y, &pool_, scratch.row, scratch.rows);
+    rows_.bake(receiver, &pool_, scratch.row, scratch.rows);
     const transport::ColourModel& colour = quantisation_.colour;
     split_colours(colour, scratch.row, scratch.channels);
-    const std::uint32_t slot = image_.place_from_pixel(x, y).slot;
     for (std::size_t c = 0; c < transport::kColours; ++c) {
         block.tint[c * transport::kBlockSize + slot] =
             scratch.channels.tint[static_cast<int>(c)];
@@ -110,14 +108,14 @@ void ShardBaker::bake_pixel(std::uint32_t x,
     for (std::uint32_t k = 0; k < colour.channels; ++k) {
         block.rows.set(slot, k, scratch.channels.channel[k]);
     }
-    if (is_measured_pixel(x, y)) {
+    if (std::find(patch_.slots.begin(), patch_.slots.end(), slot) != patch_.slots.end()) {
         block.stored.slots.push_back(slot);
         meter_.measure_exact(scratch.row, block.measured.emplace_back());
     }
 }
 
 BlockErrors ShardBaker::measure(Block& block) const {
-    std::array<ErrorMeter::PixelLight, 4> corners{};
+    std::vector<ErrorMeter::LitReceiver> patch(patch_.slots.size());
     for (std::size_t i = 0; i < block.measured.size(); ++i) {
         const std::uint32_t slot = block.stored.slots[i];
         Imath::V3f tint;
@@ -125,12 +123,10 @@ BlockErrors ShardBaker::measure(Block& block) const {
             tint[static_cast<int>(c)] = block.tint[c * transport::kBlockSize + slot];
         }
         meter_.measure_stored(block.stored.rows[i], tint, block.measured[i]);
-        // Measured pixels have odd coordinates on their left and upper sides.
-        const std::size_t corner =
-            (slot % 2 == 0 ? 1U : 0U) + (slot / transport::kTileSide % 2 == 0 ? 2U : 0U);
-        corners[corner] = block.measured[i];
+        const auto place = std::find(patch_.slots.begin(), patch_.slots.end(), slot);
+        patch[static_cast<std::size_t>(place - patch_.slots.begin())] = block.measured[i];
     }
-    return ErrorMeter::errors(corners);
+    return ErrorMeter::errors(patch_, patch);
 }
 
 }  // namespace relume::bake

@@ -6,7 +6,7 @@
 #include "precompute/bake/blocks/pilot.h"
 #include "precompute/bake/blocks/shard_notes.h"
 #include "precompute/bake/rows/row_baker.h"
-#include "precompute/bake/rows/tile_window.h"
+#include "precompute/bake/rows/traced_receivers.h"
 #include "protocol/transport/shard_writer.h"
 
 #include <cstdint>
@@ -24,15 +24,13 @@ struct BakedShard {
 class ShardBaker {
   public:
     ShardBaker(const RowBaker& rows,
-               const TileWindow& window,
-               const transport::TileGrid& image,
-               const Quantisation& quantisation,
-               const BakeParameters& parameters);
+               const TracedReceivers& traced,
+               const Quantisation& quantisation);
 
-    // Called with pixels and rays done, by any thread; false stops the bake.
-    using Tick = std::function<bool(std::uint64_t pixels, std::uint64_t rays)>;
+    // Called with receivers and rays done, by any thread; false stops the bake.
+    using Tick = std::function<bool(std::uint64_t receivers, std::uint64_t rays)>;
 
-    // The window has the rows of these blocks in reach. Throws BakeInterrupted.
+    // These blocks are in reach of the traced receivers. Throws BakeInterrupted.
     [[nodiscard]] BakedShard bake(std::uint32_t first_block,
                                   std::uint32_t block_count,
                                   const Tick& tick) const;
@@ -42,7 +40,10 @@ class ShardBaker {
     struct Block;
 
     [[nodiscard]] BlockErrors measure(Block& block) const;
-    void bake_pixel(std::uint32_t x, std::uint32_t y, Block& block, Scratch& scratch) const;
+    void bake_receiver(const TracedReceiver& receiver,
+                       std::uint32_t slot,
+                       Block& block,
+                       Scratch& scratch) const;
     [[nodiscard]] transport::EncodedBlock bake_block(std::uint32_t number,
                                                      std::span<float> tint,
                                                      BlockRows& rows,
@@ -51,9 +52,9 @@ class ShardBaker {
                                                      const Tick& tick) const;
 
     const RowBaker& rows_;
-    const TileWindow& window_;
+    const TracedReceivers& traced_;
     PathPool pool_;
-    transport::TileGrid image_;
+    BlockPatch patch_;
     const Quantisation& quantisation_;
     ErrorMeter meter_;
 };

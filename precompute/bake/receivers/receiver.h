@@ -1,53 +1,48 @@
-// What one pixel sees: usually one surface; at silhouettes several, each with its share.
+// What a receiver is to those who bake its row: the surfaces it stands for, and numbers of its
+// own.
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"
-#include "precompute/scene/camera.h"
 #include "precompute/scene/surface_point.h"
 
 #include <Imath/ImathVec.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace relume::bake {
 
-// A surface in a pixel, at the place that stands for it.
-struct PixelSurface {
+// A surface that a receiver stands for, at the place that stands for it.
+struct ReceiverSurface {
     scene::SurfacePoint point;
-    Imath::V3f tint{1, 1, 1};  // average colour in the pixel over the colour at the point
-    float share = 0;           // of the pixel, in (0, 1]
-    float footprint = 0;       // of a pixel at the point, in world units
+    Imath::V3f tint{1, 1, 1};  // average colour in the receiver over the colour at the point
+    float share = 0;           // of the receiver, in (0, 1]
+    float footprint = 0;       // of the receiver at the point, in world units
     std::uint32_t material = 0;
-    // Where rays leave the surface, spread over what the pixel sees of it: just off it, as
+    // Where rays leave the surface, spread over what the receiver holds of it: just off it, as
     // offset_origin says. Any aligned run of 2^k of them is spread evenly.
     std::array<Imath::V3f, kPacketSize> origins{};
-    // Points whose reflections are averaged, where the surface turns so far within the pixel
+    // Points whose reflections are averaged, where the surface turns so far within the receiver
     // that its highlight does; none where `point` stands for all.
     std::vector<scene::SurfacePoint> turns;
 };
 
-struct PixelView {
-    std::vector<PixelSurface> surfaces;  // shares add up to `coverage`
-    float coverage = 0;                  // part of the pixel that sees the scene, in [0, 1]
-    float depth = 0;  // along the view axis, average over the covered part; 0 where none
-    Imath::V3f albedo{0, 0, 0};  // diffuse plus specular colour, times coverage
+// Where a receiver's random numbers lie in the sequences that all receivers share. Receivers
+// that are close to each other get numbers that are spread evenly over all of them.
+struct SequencePlace {
+    // Of its paths: `samples` numbers from run · samples on. Close receivers have close runs.
+    std::uint32_t run = 0;
+    // Of its rays in the texels of the light: ≥ 0, and the fractional parts count.
+    double along = 0;
+    double across = 0;
 };
 
-// Casts a ray through the middle of the pixel and `pixel_samples` more on a jittered grid;
-// where they, or rays through the pixel's corners, do not all meet one smooth surface, an edge
-// passes, and kEdgeFactor times as many follow, for shares and coverage are what shows there.
-// Rays that meet one smooth surface are gathered into one PixelSurface, whose textures are
-// averaged. Corners count for nothing but the decision; an edge that all of these miss stays
-// unseen, so that what a pixel shows of it is a little less than it should be on average. One
-// sample is the middle alone, whatever is around it. Depends on nothing but its arguments.
-inline constexpr std::uint32_t kEdgeFactor = 8;
-[[nodiscard]] PixelView view_pixel(const RayCaster& caster,
-                                   const scene::Camera& camera,
-                                   std::uint32_t x,
-                                   std::uint32_t y,
-                                   std::uint32_t pixel_samples,
-                                   std::uint64_t seed);
+struct Receiver {
+    std::size_t index = 0;
+    SequencePlace place;
+    std::vector<ReceiverSurface> surfaces;  // none where it sees nothing; shares sum up to ≤ 1
+};
 
 }  // namespace relume::bake

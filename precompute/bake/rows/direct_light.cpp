@@ -9,15 +9,11 @@
 namespace relume::bake {
 namespace {
 
-// Where in the texels the rays of a pixel go, relative to another: spread evenly over any small
-// neighbourhood of pixels (Roberts' R2 sequence along both axes), so that what noise is left at
-// shadow edges is fine-grained.
-JitterShift jitter_shift(std::uint32_t x,
-                         std::uint32_t y,
+// Where in the texels the rays of a receiver go, relative to another: spread evenly over any
+// small neighbourhood of receivers, so that what noise is left at shadow edges is fine-grained.
+JitterShift jitter_shift(const SequencePlace& place,
                          std::uint32_t surface,
                          std::uint64_t seed) {
-    const double along = 0.7548776662466927 * x + 0.5698402909980532 * y;
-    const double across = 0.5698402909980532 * x + 0.2451223337533073 * y;
     const auto fraction = [](double value) {
         const double whole = static_cast<double>(static_cast<std::uint64_t>(value));
         return std::min(static_cast<float>(value - whole), 0x1.fffffep-1F);
@@ -28,8 +24,8 @@ JitterShift jitter_shift(std::uint32_t x,
         // Each lane walks the sequence from a place and in an order of its own.
         const std::uint64_t bits = transport::mix_bits(key + lane);
         const auto stride = static_cast<double>(1 + 2 * lane);
-        shift.column[lane] = fraction(stride * along + transport::unit_float(bits));
-        shift.row[lane] = fraction(stride * across + transport::unit_float(bits << 32U));
+        shift.column[lane] = fraction(stride * place.along + transport::unit_float(bits));
+        shift.row[lane] = fraction(stride * place.across + transport::unit_float(bits << 32U));
     }
     return shift;
 }
@@ -64,23 +60,22 @@ DirectLight::DirectLight(const RayCaster& caster,
                          std::uint32_t edge_samples)
     : caster_(caster), texels_(texels), visibility_(caster, texels, edge_samples) {}
 
-void DirectLight::compute(const PixelView& view,
-                          std::uint32_t x,
-                          std::uint32_t y,
+void DirectLight::compute(const Receiver& receiver,
                           std::uint64_t seed,
                           TexelRow& row,
                           Scratch& scratch) const {
+    const std::vector<ReceiverSurface>& surfaces = receiver.surfaces;
     scratch.open.resize(texels_.size());
     scratch.scattered.resize(texels_.size());
-    row.is_grey = view.surfaces.empty() ||
-                  (view.surfaces.size() == 1 && view.surfaces[0].point.bsdf.is_diffuse());
+    row.is_grey =
+        surfaces.empty() || (surfaces.size() == 1 && surfaces[0].point.bsdf.is_diffuse());
     row.colour = {0, 0, 0};
     for (std::size_t c = 0; c < (row.is_grey ? 1U : 3U); ++c) {
         row.plane[c].assign(texels_.size(), 0.0F);
     }
-    for (std::uint32_t i = 0; i < view.surfaces.size(); ++i) {
-        const PixelSurface& surface = view.surfaces[i];
-        light_surface(surface, jitter_shift(x, y, i, seed), scratch);
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+        const ReceiverSurface& surface = surfaces[i];
+        light_surface(surface, jitter_shift(receiver.place, i, seed), scratch);
         Reflection& reflection = scratch.reflection;
         const Imath::V3f colour = reflection.is_diffuse ? surface.point.bsdf.diffuse_colour() *
                                                               surface.tint * surface.share
@@ -102,7 +97,7 @@ void DirectLight::compute(const PixelView& view,
     }
 }
 
-void DirectLight::light_surface(const PixelSurface& surface,
+void DirectLight::light_surface(const ReceiverSurface& surface,
                                 const JitterShift& shift,
                                 Scratch& scratch) const {
     Reflection& reflection = scratch.reflection;
@@ -128,7 +123,7 @@ void DirectLight::light_surface(const PixelSurface& surface,
 }
 
 // The mean of the reflections of all turns.
-void DirectLight::reflect_from_turns(const PixelSurface& surface, Scratch& scratch) const {
+void DirectLight::reflect_from_turns(const ReceiverSurface& surface, Scratch& scratch) const {
     const float each = 1 / static_cast<float>(surface.turns.size());
     Reflection& sum = scratch.reflection;
     Reflection& turn = scratch.turn;
@@ -160,7 +155,7 @@ void DirectLight::reflect_from_turns(const PixelSurface& surface, Scratch& scrat
 }
 
 // Every part of a split texel has a ray of its own.
-void DirectLight::add_split_texels(const PixelSurface& surface,
+void DirectLight::add_split_texels(const ReceiverSurface& surface,
                                    const JitterShift& shift,
                                    Scratch& scratch) const {
     constexpr float kPart = 1.0F / LightTexels::kTileSide;

@@ -1,4 +1,4 @@
-// The direct part of a pixel's transport: reflection times visibility, texel by texel.
+// The direct part of a receiver's transport: reflection times visibility, texel by texel.
 #pragma once
 
 #include "precompute/bake/receivers/receiver.h"
@@ -13,7 +13,7 @@
 
 namespace relume::bake {
 
-// Response of a pixel to radiance 1 in each texel, row-major. One plane times a colour where
+// Response of a receiver to radiance 1 in each texel, row-major. One plane times a colour where
 // that says it all, else three planes.
 struct TexelRow {
     bool is_grey = true;
@@ -35,19 +35,17 @@ class DirectLight {
     };
 
     // Depends on nothing but its arguments.
-    void compute(const PixelView& view,
-                 std::uint32_t x,
-                 std::uint32_t y,
+    void compute(const Receiver& receiver,
                  std::uint64_t seed,
                  TexelRow& row,
                  Scratch& scratch) const;
 
   private:
-    void light_surface(const PixelSurface& surface,
+    void light_surface(const ReceiverSurface& surface,
                        const JitterShift& shift,
                        Scratch& scratch) const;
-    void reflect_from_turns(const PixelSurface& surface, Scratch& scratch) const;
-    void add_split_texels(const PixelSurface& surface,
+    void reflect_from_turns(const ReceiverSurface& surface, Scratch& scratch) const;
+    void add_split_texels(const ReceiverSurface& surface,
                           const JitterShift& shift,
                           Scratch& scratch) const;
 

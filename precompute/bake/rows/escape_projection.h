@@ -1,4 +1,4 @@
-// From the escapes of a pixel's paths to coefficients of its row, whichever the basis.
+// From the escapes of a receiver's paths to coefficients of its row, whichever the basis.
 #pragma once
 
 #include "precompute/bake/rows/shrinkage.h"

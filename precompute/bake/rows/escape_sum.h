@@ -1,4 +1,4 @@
-// Where the paths of a pixel and its neighbours left the scene, by texel.
+// Where the paths of a receiver and its neighbours left the scene, by texel.
 #pragma once
 
 #include "precompute/bake/rows/path_tracer.h"
@@ -18,7 +18,7 @@ struct EscapeNode {
     float squares = 0;
 };
 
-// Reused from pixel to pixel; one per thread.
+// Reused from receiver to receiver; one per thread.
 class EscapeSum {
   public:
     // Forgets all.

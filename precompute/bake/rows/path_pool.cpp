@@ -22,7 +22,7 @@ float squared(float x) {
 }
 
 // In [0, 1]; 0 where the neighbour's paths say nothing about the surface.
-float similarity(const PixelSurface& own, float nearness, const PixelSurface& other) {
+float similarity(const ReceiverSurface& own, float nearness, const ReceiverSurface& other) {
     if (own.material != other.material) {
         return 0;
     }
@@ -47,43 +47,35 @@ float similarity(const PixelSurface& own, float nearness, const PixelSurface& ot
 
 }  // namespace
 
-void PathPool::gather(std::uint32_t x,
-                      std::uint32_t y,
-                      std::uint32_t surface,
-                      EscapeSum& escapes) const {
-    const TracedPixel& centre = window_.pixel(x, y);
-    if (radius_ == 0) {
+void PathPool::gather(std::size_t receiver, std::uint32_t surface, EscapeSum& escapes) const {
+    const TracedReceiver& centre = traced_.at(receiver);
+    const std::uint32_t radius = traced_.radius();
+    if (radius == 0) {
         escapes.add(centre.paths[surface], 1);
         return;
     }
-    const PixelSurface& own = centre.view.surfaces[surface];
+    const ReceiverSurface& own = centre.receiver.surfaces[surface];
     const float nearness = centre.paths[surface].nearness;
-    const float falloff = 2.0F / squared(static_cast<float>(radius_));  // σ = radius/2
-    const std::uint32_t left = std::max(x > radius_ ? x - radius_ : 0, window_.columns().left);
-    const std::uint32_t right = std::min(x + radius_ + 1, window_.columns().right);
-    const std::uint32_t top = std::max(y > radius_ ? y - radius_ : 0, window_.top());
-    const std::uint32_t bottom = std::min(y + radius_ + 1, window_.bottom());
+    const float falloff = 2.0F / squared(static_cast<float>(radius));  // σ = radius/2
     struct Weighed {
         const SurfacePaths* paths;
         float weight;
     };
+    thread_local std::vector<Neighbour> neighbours;
     thread_local std::vector<Weighed> pooled;
+    traced_.receivers().find_neighbours(receiver, radius, neighbours);
     pooled.clear();
     float total = 0;
-    for (std::uint32_t row = top; row < bottom; ++row) {
-        for (std::uint32_t column = left; column < right; ++column) {
-            const TracedPixel& pixel = window_.pixel(column, row);
-            const float dx = static_cast<float>(column) - static_cast<float>(x);
-            const float dy = static_cast<float>(row) - static_cast<float>(y);
-            const float near = std::exp(-falloff * (dx * dx + dy * dy));
-            for (std::size_t i = 0; i < pixel.paths.size(); ++i) {
-                // A share of a pixel has that share of its paths, and counts by them.
-                const float weight = near * pixel.view.surfaces[i].share *
-                                     similarity(own, nearness, pixel.view.surfaces[i]);
-                if (weight >= kLeastWeight * own.share) {
-                    pooled.push_back({.paths = &pixel.paths[i], .weight = weight});
-                    total += weight;
-                }
+    for (const Neighbour& neighbour : neighbours) {
+        const TracedReceiver& other = traced_.at(neighbour.receiver);
+        const float near = std::exp(-falloff * neighbour.squared_distance);
+        for (std::size_t i = 0; i < other.paths.size(); ++i) {
+            // A share of a receiver has that share of its paths, and counts by them.
+            const ReceiverSurface& theirs = other.receiver.surfaces[i];
+            const float weight = near * theirs.share * similarity(own, nearness, theirs);
+            if (weight >= kLeastWeight * own.share) {
+                pooled.push_back({.paths = &other.paths[i], .weight = weight});
+                total += weight;
             }
         }
     }

@@ -1,6 +1,7 @@
-// Indirect light of a pixel from its own paths and those of neighbours that see much the same.
+// Indirect light of a receiver from its own paths and those of neighbours that see much the
+// same.
 //
-// A neighbour's paths count by its distance in the image, in the plane of the surface, in
+// A neighbour's paths count by its distance in steps, in the plane of the surface, in
 // orientation and, for glossy surfaces, in the direction of the mirror image; only surfaces of
 // one material are pooled. Near other surfaces indirect light changes fast, so there the pool
 // narrows with the harmonic mean distance to what is around [Ward88]. Weights depend on the
@@ -8,7 +9,7 @@
 #pragma once
 
 #include "precompute/bake/rows/escape_sum.h"
-#include "precompute/bake/rows/tile_window.h"
+#include "precompute/bake/rows/traced_receivers.h"
 
 #include <cstdint>
 
@@ -16,19 +17,14 @@ namespace relume::bake {
 
 class PathPool {
   public:
-    PathPool(const TileWindow& window, std::uint32_t radius)
-        : window_(window), radius_(radius) {}
+    explicit PathPool(const TracedReceivers& traced) : traced_(traced) {}
 
-    // Adds the pooled paths of one surface of pixel (x, y), without its reflectance. The pixel
-    // and those within the radius are in the window. Thread-safe for different sums.
-    void gather(std::uint32_t x,
-                std::uint32_t y,
-                std::uint32_t surface,
-                EscapeSum& escapes) const;
+    // Adds the pooled paths of one surface of the receiver, without its reflectance. The
+    // receiver and its neighbours are in reach. Thread-safe for different sums.
+    void gather(std::size_t receiver, std::uint32_t surface, EscapeSum& escapes) const;
 
   private:
-    const TileWindow& window_;
-    std::uint32_t radius_;
+    const TracedReceivers& traced_;
 };
 
 }  // namespace relume::bake

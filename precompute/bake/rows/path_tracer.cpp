@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace relume::bake {
 namespace {
@@ -47,15 +48,25 @@ Imath::V3f reflectance(const scene::Bsdf& bsdf) {
     return {std::max(sum.x, kDarkest), std::max(sum.y, kDarkest), std::max(sum.z, kDarkest)};
 }
 
-SurfacePaths PathTracer::trace(const PixelSurface& surface,
-                               std::uint32_t surface_number,
-                               std::uint32_t x,
-                               std::uint32_t y) const {
+TracedReceiver PathTracer::trace(Receiver receiver) const {
+    TracedReceiver traced{.receiver = std::move(receiver), .paths = {}};
+    if (bounces_ > 0) {
+        const std::vector<ReceiverSurface>& surfaces = traced.receiver.surfaces;
+        for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+            traced.paths.push_back(trace_surface(surfaces[i], i, traced.receiver.place));
+        }
+    }
+    return traced;
+}
+
+SurfacePaths PathTracer::trace_surface(const ReceiverSurface& surface,
+                                       std::uint32_t surface_number,
+                                       const SequencePlace& place) const {
     SurfacePaths paths;
     paths.paths = std::max(1U, static_cast<std::uint32_t>(
                                    std::lround(surface.share * static_cast<float>(samples_))));
     const std::uint64_t key = transport::mix_bits(seed_ + 1) + surface_number;
-    const std::uint32_t first = morton_index(x, y) * samples_;
+    const std::uint32_t first = place.run * samples_;
     for (std::uint32_t i = 0; i < paths.paths; ++i) {
         trace_path(surface, i, first + i, key, paths);
     }
@@ -63,7 +74,7 @@ SurfacePaths PathTracer::trace(const PixelSurface& surface,
     return paths;
 }
 
-void PathTracer::trace_path(const PixelSurface& surface,
+void PathTracer::trace_path(const ReceiverSurface& surface,
                             std::uint32_t number,
                             std::uint32_t index,
                             std::uint64_t key,
@@ -163,15 +174,15 @@ std::uint32_t PathTracer::key_from_direction(const Imath::V3f& direction) const 
 std::uint32_t PathTracer::looks(std::uint32_t event, std::uint32_t samples) {
     // Of light that was scattered twice little is left.
     constexpr std::uint32_t kLastEvent = 3;
-    constexpr std::uint32_t kOfPixel = 2048;
-    constexpr std::uint32_t kLaterOfPixel = 512;
+    constexpr std::uint32_t kOfReceiver = 2048;
+    constexpr std::uint32_t kLaterOfReceiver = 512;
     constexpr std::uint32_t kLaterOfPath = 4;
     if (event == 0 || event > kLastEvent) {
         return 0;
     }
     const std::uint32_t count =
-        event == 1 ? std::min(kOfPixel / samples, static_cast<std::uint32_t>(kPacketSize))
-                   : std::min(kLaterOfPixel / samples, kLaterOfPath);
+        event == 1 ? std::min(kOfReceiver / samples, static_cast<std::uint32_t>(kPacketSize))
+                   : std::min(kLaterOfReceiver / samples, kLaterOfPath);
     return count > 1 ? count : 0;
 }
 

@@ -1,6 +1,7 @@
 // Indirect light by path tracing: where paths that hit something first leave the scene at last.
 #pragma once
 
+#include "precompute/bake/base/parameters.h"
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/bake/receivers/receiver.h"
 
@@ -18,8 +19,8 @@ struct Escapes {
     std::uint32_t count = 0;
 };
 
-// All paths from one PixelSurface. Response of the surface to radiance L(ω): reflectance ·
-// Σ weight · L / paths, over the texels of all escapes.
+// All paths from one surface of a receiver. Response of the surface to radiance L(ω):
+// reflectance · Σ weight · L / paths, over the texels of all escapes.
 struct SurfacePaths {
     std::vector<Escapes> escapes;
     // One after another, as many as the escapes count: keys that sort by face, then along a
@@ -28,6 +29,12 @@ struct SurfacePaths {
     std::uint32_t paths = 0;
     float nearness = 0;  // mean of 1/distance to what the paths hit first, per world unit
     std::uint64_t rays = 0;
+};
+
+// A receiver and where light comes to it from.
+struct TracedReceiver {
+    Receiver receiver;
+    std::vector<SurfacePaths> paths;  // one per surface; none when the bake has no bounces
 };
 
 // What path weights are divided by, so that paths of differently coloured points can be shared:
@@ -50,13 +57,13 @@ struct SurfacePaths {
 // direction is all there is.
 class PathTracer {
   public:
-    // In how many directions a path looks at scattering event `event`, the pixel's own surface
-    // being event 0: none, or more than one.
+    // In how many directions a path looks at scattering event `event`, the receiver's own
+    // surface being event 0: none, or more than one.
     [[nodiscard]] static std::uint32_t looks(std::uint32_t event, std::uint32_t samples);
-    // What is kept of a pixel's paths at most, in bytes.
+    // What is kept of a receiver's paths at most, in bytes.
     [[nodiscard]] static std::uint64_t most_bytes(std::uint32_t bounces, std::uint32_t samples);
 
-    // `bounces`: scattering events after the first surface, at least 1.
+    // `bounces`: scattering events after the first surface; 0: no paths.
     PathTracer(const RayCaster& caster,
                std::uint32_t face_resolution,
                std::uint32_t bounces,
@@ -68,17 +75,24 @@ class PathTracer {
           samples_(samples),
           seed_(seed) {}
 
-    // Paths of one surface of pixel (x, y): its share of `samples`, at least one.
-    // Low-discrepancy within the pixel and across neighbouring pixels [Ahmed20]. Depends on
-    // nothing but its arguments.
-    [[nodiscard]] SurfacePaths trace(const PixelSurface& surface,
-                                     std::uint32_t surface_number,
-                                     std::uint32_t x,
-                                     std::uint32_t y) const;
+    PathTracer(const RayCaster& caster, const BakeParameters& parameters)
+        : PathTracer(caster,
+                     parameters.face_resolution,
+                     parameters.bounces,
+                     parameters.samples,
+                     parameters.seed) {}
+
+    // Paths of all surfaces. Depends on nothing but its argument.
+    [[nodiscard]] TracedReceiver trace(Receiver receiver) const;
+    // Paths of one surface, the receiver's `surface_number`th: its share of `samples`, at least
+    // one. Low-discrepancy within the receiver and across its neighbours (SequencePlace).
+    [[nodiscard]] SurfacePaths trace_surface(const ReceiverSurface& surface,
+                                             std::uint32_t surface_number,
+                                             const SequencePlace& place) const;
 
   private:
     // Path `number` of the surface, at `index` of the sequences.
-    void trace_path(const PixelSurface& surface,
+    void trace_path(const ReceiverSurface& surface,
                     std::uint32_t number,
                     std::uint32_t index,
                     std::uint64_t key,

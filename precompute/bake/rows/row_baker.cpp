@@ -26,14 +26,12 @@ RowBaker::RowBaker(const RayCaster& caster,
       seed_(parameters.seed),
       direct_(caster, texels, parameters.edge_samples) {}
 
-void RowBaker::bake(const TracedPixel& pixel,
-                    std::uint32_t x,
-                    std::uint32_t y,
+void RowBaker::bake(const TracedReceiver& traced,
                     const PathPool* pool,
                     CoefficientRow& row,
                     Scratch& scratch) const {
     TexelRow& texels = scratch.texels;
-    direct_.compute(pixel.view, x, y, seed_, texels, scratch.direct);
+    direct_.compute(traced.receiver, seed_, texels, scratch.direct);
     const std::size_t count = projection_->basis().coefficient_count();
     for (auto& plane : row.rgb) {
         plane.resize(count);
@@ -50,7 +48,7 @@ void RowBaker::bake(const TracedPixel& pixel,
         }
     }
     row.direct_white = white_response(row);
-    add_indirect(pixel, x, y, pool, row, scratch);
+    add_indirect(traced, pool, row, scratch);
     row.white = white_response(row);
 }
 
@@ -65,22 +63,20 @@ Imath::V3f RowBaker::white_response(const CoefficientRow& row) const {
     return white;
 }
 
-void RowBaker::add_indirect(const TracedPixel& pixel,
-                            std::uint32_t x,
-                            std::uint32_t y,
+void RowBaker::add_indirect(const TracedReceiver& traced,
                             const PathPool* pool,
                             CoefficientRow& row,
                             Scratch& scratch) const {
-    for (std::uint32_t i = 0; i < pixel.paths.size(); ++i) {
+    for (std::uint32_t i = 0; i < traced.paths.size(); ++i) {
         scratch.escapes.reset(projection_->basis().face_resolution());
         if (pool != nullptr) {
-            pool->gather(x, y, i, scratch.escapes);
+            pool->gather(traced.receiver.index, i, scratch.escapes);
         } else {
-            scratch.escapes.add(pixel.paths[i], 1);
+            scratch.escapes.add(traced.paths[i], 1);
         }
         scratch.coefficients.clear();
         escapes_->project(scratch.escapes, scratch.coefficients);
-        const PixelSurface& surface = pixel.view.surfaces[i];
+        const ReceiverSurface& surface = traced.receiver.surfaces[i];
         const Imath::V3f factor =
             reflectance(surface.point.bsdf) * surface.tint * surface.share;
         for (const Coefficient& coefficient : scratch.coefficients) {

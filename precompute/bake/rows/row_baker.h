@@ -1,4 +1,4 @@
-// One pixel's transport, as coefficients of the light in red, green and blue.
+// One receiver's transport, as coefficients of the light in red, green and blue.
 #pragma once
 
 #include "precompute/bake/rows/direct_light.h"
@@ -38,18 +38,14 @@ class RowBaker {
         std::vector<Coefficient> coefficients;
     };
 
-    // `pool` may be null: then the pixel's own paths are all there is.
-    void bake(const TracedPixel& pixel,
-              std::uint32_t x,
-              std::uint32_t y,
+    // `pool` may be null: then the receiver's own paths are all there is.
+    void bake(const TracedReceiver& traced,
               const PathPool* pool,
               CoefficientRow& row,
               Scratch& scratch) const;
 
   private:
-    void add_indirect(const TracedPixel& pixel,
-                      std::uint32_t x,
-                      std::uint32_t y,
+    void add_indirect(const TracedReceiver& traced,
                       const PathPool* pool,
                       CoefficientRow& row,
                       Scratch& scratch) const;

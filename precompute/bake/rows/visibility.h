@@ -1,10 +1,10 @@
-// How much of each texel of the light the surface in a pixel sees.
+// How much of each texel of the light the surface in a receiver sees.
 //
 // One ray through every texel the surface could be lit from, jittered within the texel, from
 // one of sixteen places of the surface; where the neighbours of a texel disagree a shadow's
-// edge passes in the light or in the pixel, and more rays follow, from several of the places.
-// Which texels get more is decided by their neighbours alone, never by their own ray, so the
-// estimate stays unbiased; the rays of one texel are stratified over it.
+// edge passes in the light or in the receiver, and more rays follow, from several of the
+// places. Which texels get more is decided by their neighbours alone, never by their own ray,
+// so the estimate stays unbiased; the rays of one texel are stratified over it.
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"

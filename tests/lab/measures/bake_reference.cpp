@@ -1,6 +1,6 @@
 #include "tests/lab/measures/bake_reference.h"
 
-#include "precompute/bake/receivers/receiver.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/bake/rows/direct_light.h"
 #include "precompute/bake/rows/path_tracer.h"
 #include "protocol/basis/cubemap.h"
@@ -17,8 +17,7 @@
 namespace relume::lab {
 namespace {
 
-using bake::PixelSurface;
-using bake::PixelView;
+using bake::ReceiverSurface;
 
 // The texels of a light that cast its shadows.
 struct KeyTexels {
@@ -149,7 +148,7 @@ class ReferenceTracer {
         constexpr std::uint32_t kSide = 12;
         constexpr float kSameCosine = 0.95F;
         constexpr float kSamePlane = 2;  // footprints of the pixel
-        std::optional<PixelSurface> first;
+        std::optional<ReceiverSurface> first;
         std::uint32_t seen = 0;
         bool differ = false;
         for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
@@ -178,10 +177,10 @@ class ReferenceTracer {
     }
 
     // The surface at a place in cell (column, row) of `side` cells a pixel.
-    [[nodiscard]] std::optional<PixelSurface> look(std::uint32_t column,
-                                                   std::uint32_t row,
-                                                   std::uint32_t side,
-                                                   std::uint64_t half) const {
+    [[nodiscard]] std::optional<ReceiverSurface> look(std::uint32_t column,
+                                                      std::uint32_t row,
+                                                      std::uint32_t side,
+                                                      std::uint64_t half) const {
         const std::uint64_t bits = transport::mix_bits(transport::mix_bits(kSeed + half) ^
                                                        (std::uint64_t{row} << 32U) ^ column);
         const auto place = [side](std::uint32_t cell, float offset) {
@@ -194,7 +193,7 @@ class ReferenceTracer {
         if (!hit) {
             return std::nullopt;
         }
-        PixelSurface surface;
+        ReceiverSurface surface;
         surface.point = scene::surface_point(caster_.scene(), hit->mesh, hit->triangle,
                                              hit->barycentric, direction);
         surface.share = 1;
@@ -210,14 +209,15 @@ class ReferenceTracer {
                       std::uint32_t side,
                       std::uint64_t half,
                       Scratch& scratch) const {
-        const std::optional<PixelSurface> surface = look(column, row, side, half);
+        const std::optional<ReceiverSurface> surface = look(column, row, side, half);
         if (!surface) {
             return;
         }
-        PixelView view;
-        view.surfaces.push_back(*surface);
+        const bake::Receiver point{.index = 0,
+                                   .place = bake::sequence_place_from_pixel(column, row),
+                                   .surfaces = {*surface}};
         const std::uint64_t seed = kSeed + 1 + half;
-        direct_.compute(view, column, row, seed, scratch.row, scratch.direct);
+        direct_.compute(point, seed, scratch.row, scratch.direct);
         for (std::size_t c = 0; c < 3; ++c) {
             const bool grey = scratch.row.is_grey;
             const float factor = grey ? scratch.row.colour[static_cast<int>(c)] : 1.0F;
@@ -226,13 +226,12 @@ class ReferenceTracer {
                 scratch.response[c][i] += factor * plane[i];
             }
         }
-        add_paths(*surface, column, row, side, seed, scratch);
+        add_paths(*surface, point.place, side, seed, scratch);
         look_at_keys(surface->point, transport::mix_bits(seed ^ column) ^ row, scratch);
     }
 
-    void add_paths(const PixelSurface& surface,
-                   std::uint32_t column,
-                   std::uint32_t row,
+    void add_paths(const ReceiverSurface& surface,
+                   const bake::SequencePlace& place,
                    std::uint32_t side,
                    std::uint64_t seed,
                    Scratch& scratch) const {
@@ -242,7 +241,7 @@ class ReferenceTracer {
         const std::uint32_t count = std::max(1U, options_.paths / (side * side));
         const bake::PathTracer tracer(caster_, options_.face_resolution, options_.bounces,
                                       count, seed);
-        const bake::SurfacePaths paths = tracer.trace(surface, 0, column, row);
+        const bake::SurfacePaths paths = tracer.trace_surface(surface, 0, place);
         const Imath::V3f factor =
             bake::reflectance(surface.point.bsdf) / static_cast<float>(paths.paths);
         auto key = paths.texels.begin();

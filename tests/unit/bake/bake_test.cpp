@@ -133,7 +133,7 @@ TEST_F(Bake, GoesOnAfterAnInterruptionAndGivesTheSameBytes) {
 
     std::uint64_t done = 0;
     const BakeHooks stop_in_second_shard{
-        .on_progress = [&](const BakeProgress& progress) { done = progress.pixels_done; },
+        .on_progress = [&](const BakeProgress& progress) { done = progress.receivers_done; },
         .should_stop = [&] { return done > 16U * 33U * 16U + 400U; }};
     parameters.threads = 1;
     EXPECT_THROW(bake(scene, parameters, path_, stop_in_second_shard), BakeInterrupted);

@@ -224,14 +224,15 @@ TEST_F(Output, AReportThatIsNoneIsNotTold) {
 }
 
 TEST(ProgressText, NamesNoTimeLeftBeforeItMeansSomething) {
-    BakeProgress progress{.pixels_done = 9, .pixels_resumed = 0, .pixels = 100, .rays = 0};
+    BakeProgress progress{
+        .receivers_done = 9, .receivers_resumed = 0, .receivers = 100, .rays = 0};
     EXPECT_EQ(progress_text(progress, 9).find("left"), std::string::npos);
-    progress.pixels_done = 10;
+    progress.receivers_done = 10;
     EXPECT_NE(progress_text(progress, 10).find("1:30 left"), std::string::npos);
     // Of a bake that goes on, what was there already says nothing about its speed.
-    progress = {.pixels_done = 91, .pixels_resumed = 90, .pixels = 100, .rays = 0};
+    progress = {.receivers_done = 91, .receivers_resumed = 90, .receivers = 100, .rays = 0};
     EXPECT_NE(progress_text(progress, 1).find("0:09 left"), std::string::npos);
-    progress.pixels_done = 90;
+    progress.receivers_done = 90;
     EXPECT_EQ(progress_text(progress, 1).find("left"), std::string::npos);
 }
 

@@ -2,7 +2,7 @@
 // less noise.
 #include "precompute/bake/rows/path_tracer.h"
 
-#include "precompute/bake/receivers/receiver.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/scene/builtin.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,9 @@ class PathTracerTest : public testing::Test {
                                   std::uint64_t seed) const {
         PixelView view = view_pixel(caster_, camera_, 16, 20, 1, 0);
         view.surfaces.at(0).share = static_cast<float>(kPaths) / static_cast<float>(samples);
-        const SurfacePaths paths = PathTracer(caster_, kFace, bounces, samples, seed)
-                                       .trace(view.surfaces.at(0), 0, 16, 20);
+        const SurfacePaths paths =
+            PathTracer(caster_, kFace, bounces, samples, seed)
+                .trace_surface(view.surfaces.at(0), 0, sequence_place_from_pixel(16, 20));
         EXPECT_EQ(paths.paths, kPaths);
         EXPECT_EQ(std::accumulate(paths.escapes.begin(), paths.escapes.end(), std::size_t{0},
                                   [](std::size_t sum, const Escapes& escapes) {

@@ -1,6 +1,7 @@
 // The error that a bake states of its own sampling.
 #include "precompute/bake/blocks/sampling_error.h"
 
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/scene/builtin.h"
 
 #include <gtest/gtest.h>
@@ -21,9 +22,8 @@ BakeParameters parameters_with_seed(std::uint64_t seed) {
 }
 
 transport::SamplingError stated(const scene::Scene& scene, const BakeParameters& parameters) {
-    const scene::Camera camera(scene.camera, parameters.width, parameters.height);
     const RayCaster caster(scene);
-    return measure_sampling_error(caster, camera, parameters);
+    return measure_sampling_error(caster, PixelReceivers(caster, parameters), parameters);
 }
 
 TEST(SamplingError, FallsWithMoreSamples) {

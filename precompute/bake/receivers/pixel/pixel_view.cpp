@@ -1,4 +1,4 @@
-#include "precompute/bake/receivers/receiver.h"
+#include "precompute/bake/receivers/pixel/pixel_view.h"
 
 #include "precompute/scene/mirror_lobe.h"
 #include "protocol/transport/hash.h"
@@ -18,7 +18,7 @@ constexpr float kSameSurfaceCosine = 0.85F;
 constexpr float kSameSurfaceFootprints = 2.0F;
 
 struct Gathered {
-    PixelSurface surface;
+    ReceiverSurface surface;
     Imath::V3f colour_sum{0, 0, 0};
     float best_distance = 0;  // of the point that stands for it, from the pixel's centre
     std::vector<scene::SurfacePoint> hits;
@@ -28,7 +28,7 @@ Imath::V3f colour_of(const scene::SurfacePoint& point) {
     return point.bsdf.diffuse_colour() + point.bsdf.specular_colour();
 }
 
-bool same_surface(const PixelSurface& a, const PixelSurface& b) {
+bool same_surface(const ReceiverSurface& a, const ReceiverSurface& b) {
     const Imath::V3f between = b.point.position - a.point.position;
     return a.material == b.material &&
            a.point.shading.normal.dot(b.point.shading.normal) > kSameSurfaceCosine &&
@@ -63,7 +63,7 @@ bool turns_far(const scene::SurfacePoint& point, std::span<const scene::SurfaceP
 }
 
 void spread_over_hits(Gathered& one) {
-    PixelSurface& surface = one.surface;
+    ReceiverSurface& surface = one.surface;
     std::span<const scene::SurfacePoint> hits = one.hits;
     if (one.best_distance == 0 && hits.size() > 1) {
         hits = hits.subspan(1);  // the middle of the pixel, which is no part of the grid
@@ -136,7 +136,7 @@ class PixelGatherer {
 
   private:
     struct Seen {
-        PixelSurface surface;
+        ReceiverSurface surface;
         float depth = 0;  // along the view axis
     };
 
@@ -156,7 +156,7 @@ class PixelGatherer {
         return seen;
     }
 
-    void gather(const PixelSurface& surface, float centre_distance) {
+    void gather(const ReceiverSurface& surface, float centre_distance) {
         auto found = std::find_if(gathered_.begin(), gathered_.end(), [&](const Gathered& one) {
             return same_surface(one.surface, surface);
         });

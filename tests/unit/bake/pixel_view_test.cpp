@@ -1,5 +1,5 @@
 // What a pixel sees, and how well its samples tell shares and coverage.
-#include "precompute/bake/receivers/receiver.h"
+#include "precompute/bake/receivers/pixel/pixel_view.h"
 
 #include "precompute/scene/builtin.h"
 
@@ -66,7 +66,7 @@ EdgeErrors errors_at_edges(const RayCaster& caster, std::uint32_t pixel_samples)
     return errors;
 }
 
-TEST(Receiver, EdgesGetTheSamplesThatSmoothPixelsDoNotNeed) {
+TEST(PixelView, EdgesGetTheSamplesThatSmoothPixelsDoNotNeed) {
     std::uint32_t pixels = 0;
     for (const char* name : {"box", "thin", "table"}) {
         const scene::Scene scene = scene::build_builtin_scene(name);
@@ -80,7 +80,7 @@ TEST(Receiver, EdgesGetTheSamplesThatSmoothPixelsDoNotNeed) {
     EXPECT_GT(pixels, 50U);
 }
 
-TEST(Receiver, SharesAddUpToCoverage) {
+TEST(PixelView, SharesAddUpToCoverage) {
     const scene::Scene scene = scene::build_builtin_scene("thin");
     const RayCaster caster(scene);
     const scene::Camera camera(scene.camera, kWidth, kHeight);
@@ -88,7 +88,7 @@ TEST(Receiver, SharesAddUpToCoverage) {
         for (std::uint32_t x = 0; x < kWidth; ++x) {
             const PixelView view = view_pixel(caster, camera, x, y, 4, 1);
             float shares = 0;
-            for (const PixelSurface& surface : view.surfaces) {
+            for (const ReceiverSurface& surface : view.surfaces) {
                 EXPECT_GT(surface.share, 0);
                 shares += surface.share;
             }
@@ -97,7 +97,7 @@ TEST(Receiver, SharesAddUpToCoverage) {
     }
 }
 
-TEST(Receiver, OneSampleIsTheMiddleWhateverIsAround) {
+TEST(PixelView, OneSampleIsTheMiddleWhateverIsAround) {
     const scene::Scene scene = scene::build_builtin_scene("thin");
     const RayCaster caster(scene);
     const scene::Camera camera(scene.camera, kWidth, kHeight);
@@ -119,7 +119,7 @@ Imath::V2f pixel_position(const scene::Camera& camera, const Imath::V3f& point) 
     return {(x + 1) * 0.5F * kWidth, (1 - y) * 0.5F * kHeight};
 }
 
-TEST(Receiver, OriginsLieAllOverWhatThePixelSeesOfTheSurface) {
+TEST(PixelView, OriginsLieAllOverWhatThePixelSeesOfTheSurface) {
     const scene::Scene scene = scene::build_builtin_scene("plane");
     const RayCaster caster(scene);
     const scene::Camera camera(scene.camera, kWidth, kHeight);
@@ -147,7 +147,7 @@ TEST(Receiver, OriginsLieAllOverWhatThePixelSeesOfTheSurface) {
     }
 }
 
-TEST(Receiver, SurfacesThatTurnWithinThePixelHaveSeveralPoints) {
+TEST(PixelView, SurfacesThatTurnWithinThePixelHaveSeveralPoints) {
     // A glossy knot: its highlights move by more than their width from pixel to pixel.
     const scene::Scene scene = scene::build_builtin_scene("thin");
     const RayCaster caster(scene);
@@ -155,7 +155,7 @@ TEST(Receiver, SurfacesThatTurnWithinThePixelHaveSeveralPoints) {
     std::uint32_t turning = 0;
     for (std::uint32_t y = 0; y < kHeight; ++y) {
         for (std::uint32_t x = 0; x < kWidth; ++x) {
-            for (const PixelSurface& surface :
+            for (const ReceiverSurface& surface :
                  view_pixel(caster, camera, x, y, 16, 3).surfaces) {
                 turning += surface.turns.empty() ? 0U : 1U;
                 EXPECT_LE(surface.turns.size(), std::ceil(4 * surface.share));

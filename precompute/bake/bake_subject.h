@@ -1,0 +1,33 @@
+// What a bake is of: receivers of one kind, and what a transport of that kind has beside rows.
+#pragma once
+
+#include "precompute/bake/receivers/receivers.h"
+#include "protocol/transport/manifest.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace relume::bake {
+
+class BakeSubject {
+  public:
+    BakeSubject() = default;
+    BakeSubject(const BakeSubject&) = delete;
+    BakeSubject& operator=(const BakeSubject&) = delete;
+    virtual ~BakeSubject() = default;
+
+    [[nodiscard]] virtual const Receivers& receivers() const = 0;
+    // Throws BakeError where no receiver sees a surface.
+    virtual void check() const = 0;
+    // Sets what the manifest says of the receivers, and the fingerprint of a bake of them by
+    // the manifest's generator.
+    virtual void describe(transport::Manifest& manifest) const = 0;
+
+    // How much of each receiver sees the scene, in [0, 1].
+    [[nodiscard]] virtual std::vector<float> coverage() = 0;
+    // What people and clients look at beside the finished transport in `directory`. After
+    // coverage(). Throws BakeError, files::FileError.
+    virtual void write_files(const std::filesystem::path& directory) const = 0;
+};
+
+}  // namespace relume::bake

@@ -1,0 +1,34 @@
+#include "precompute/bake/blocks/sample_blocks.h"
+
+#include "protocol/transport/hash.h"
+
+#include <algorithm>
+
+namespace relume::bake {
+
+std::vector<std::uint32_t> sample_blocks(const Receivers& receivers,
+                                         const SampleCount& count,
+                                         std::uint64_t seed) {
+    std::vector<std::uint32_t> blocks;
+    std::vector<std::uint32_t> occupied;
+    for (std::uint32_t block = 0; block < receivers.block_count(); ++block) {
+        blocks.push_back(block);
+        if (!receivers.look(receivers.middle_of_block(block)).surfaces.empty()) {
+            occupied.push_back(block);
+        }
+    }
+    const std::vector<std::uint32_t>& from = occupied.empty() ? blocks : occupied;
+    const std::size_t wanted =
+        std::min(std::clamp<std::size_t>(from.size() / count.every, count.least, count.most),
+                 from.size());
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < wanted; ++i) {
+        const double jitter = double{transport::unit_float(transport::mix_bits(seed + i))};
+        const double place = (static_cast<double>(i) + jitter) / static_cast<double>(wanted);
+        chosen.push_back(
+            from[static_cast<std::size_t>(place * static_cast<double>(from.size()))]);
+    }
+    return chosen;
+}
+
+}  // namespace relume::bake

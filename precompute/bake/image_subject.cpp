@@ -1,0 +1,45 @@
+#include "precompute/bake/image_subject.h"
+
+#include "precompute/bake/fingerprint.h"
+#include "precompute/bake/framing.h"
+
+namespace relume::bake {
+namespace {
+
+transport::CameraRecord record_of(const scene::Camera& camera, const scene::WorldFrame& frame) {
+    return {.eye = Imath::V3f(frame.world_from_position(camera.eye())),
+            .right = camera.right(),
+            .up = camera.up(),
+            .forward = camera.forward(),
+            .tan_half_width = camera.tan_half_width(),
+            .tan_half_height = camera.tan_half_height()};
+}
+
+}  // namespace
+
+ImageSubject::ImageSubject(const RayCaster& caster, const BakeParameters& parameters)
+    : scene_(caster.scene()), parameters_(parameters), pixels_(caster, parameters) {}
+
+void ImageSubject::check() const {
+    check_framing(scene_, pixels_);
+}
+
+void ImageSubject::describe(transport::Manifest& manifest) const {
+    manifest.kind = transport::Kind::image;
+    manifest.layout = transport::ReceiverLayout::pixel_tiles(pixels_.image());
+    manifest.block_basis = transport::BlockBasis::haar_tile;
+    manifest.camera = record_of(pixels_.camera(), scene_.frame);
+    manifest.fingerprint =
+        fingerprint_of(scene_, pixels_.camera(), parameters_, manifest.generator);
+}
+
+std::vector<float> ImageSubject::coverage() {
+    view_ = view_images(pixels_, scene_.frame.unit);
+    return view_.coverage;
+}
+
+void ImageSubject::write_files(const std::filesystem::path& directory) const {
+    write_view_files(directory, view_);
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,28 @@
+// The image that a scene's own camera sees.
+#pragma once
+
+#include "precompute/bake/bake_subject.h"
+#include "precompute/bake/receivers/pixel/pixel_receivers.h"
+#include "precompute/bake/view_files.h"
+
+namespace relume::bake {
+
+class ImageSubject final : public BakeSubject {
+  public:
+    // Keeps a reference to the caster. Throws SceneError.
+    ImageSubject(const RayCaster& caster, const BakeParameters& parameters);
+
+    [[nodiscard]] const Receivers& receivers() const override { return pixels_; }
+    void check() const override;
+    void describe(transport::Manifest& manifest) const override;
+    [[nodiscard]] std::vector<float> coverage() override;
+    void write_files(const std::filesystem::path& directory) const override;
+
+  private:
+    const scene::Scene& scene_;
+    BakeParameters parameters_;
+    PixelReceivers pixels_;
+    ViewImages view_;
+};
+
+}  // namespace relume::bake
