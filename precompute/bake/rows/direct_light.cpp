@@ -158,14 +158,14 @@ void DirectLight::reflect_from_turns(const ReceiverSurface& surface, Scratch& sc
 void DirectLight::add_split_texels(const ReceiverSurface& surface,
                                    const JitterShift& shift,
                                    Scratch& scratch) const {
-    constexpr float kPart = 1.0F / LightTexels::kTileSide;
+    constexpr float kPart = 1.0F / LightTexels::kPacketSide;
     Reflection& reflection = scratch.reflection;
     RayPacket packet(surface.origins);
     for (const SplitTexel& split : reflection.split) {
         std::uint32_t wanted = 0;
         for (std::uint32_t part = 0; part < kPacketSize; ++part) {
-            const auto column = static_cast<float>(part % LightTexels::kTileSide);
-            const auto row = static_cast<float>(part / LightTexels::kTileSide);
+            const auto column = static_cast<float>(part % LightTexels::kPacketSide);
+            const auto row = static_cast<float>(part / LightTexels::kPacketSide);
             const Imath::V3f d =
                 texels_.cube_point(split.place, (column + shift.column[part]) * kPart,
                                    (row + shift.row[part]) * kPart);

@@ -22,8 +22,9 @@ RELUME_CPU_CLONES void along_axis(float origin,
                                   float* points) {
     for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
         const float column =
-            static_cast<float>(lane % LightTexels::kTileSide) + column_offset[lane];
-        const float row = static_cast<float>(lane / LightTexels::kTileSide) + row_offset[lane];
+            static_cast<float>(lane % LightTexels::kPacketSide) + column_offset[lane];
+        const float row =
+            static_cast<float>(lane / LightTexels::kPacketSide) + row_offset[lane];
         points[lane] = origin + columns * column + rows * row;
     }
 }
@@ -38,11 +39,11 @@ LightTexels::LightTexels(std::uint32_t face_resolution, std::uint64_t seed)
          {&x_, &y_, &z_, &irradiance_, &solid_angle_, &jitter_column_, &jitter_row_}) {
         plane->reserve(count);
     }
-    const std::uint32_t tiles_per_side = face_resolution / kTileSide;
+    const std::uint32_t squares_per_side = face_resolution / kPacketSide;
     for (std::uint32_t face = 0; face < basis::kFaceCount; ++face) {
-        for (std::uint32_t i = 0; i < tiles_per_side * tiles_per_side; ++i) {
-            add_tile(static_cast<basis::Face>(face), morton_even(i >> 1U) * kTileSide,
-                     morton_even(i) * kTileSide);
+        for (std::uint32_t i = 0; i < squares_per_side * squares_per_side; ++i) {
+            add_square(static_cast<basis::Face>(face), morton_even(i >> 1U) * kPacketSide,
+                       morton_even(i) * kPacketSide);
         }
     }
     for (std::size_t place = 0; place < count; ++place) {
@@ -53,7 +54,7 @@ LightTexels::LightTexels(std::uint32_t face_resolution, std::uint64_t seed)
     }
 }
 
-void LightTexels::add_tile(basis::Face face, std::uint32_t row, std::uint32_t column) {
+void LightTexels::add_square(basis::Face face, std::uint32_t row, std::uint32_t column) {
     const float texel = 2.0F / static_cast<float>(face_resolution_);
     const auto at = [&](float u, float v) {
         return basis::cube_point_from_face_point({face, u, v});
@@ -63,12 +64,12 @@ void LightTexels::add_tile(basis::Face face, std::uint32_t row, std::uint32_t co
     const Imath::V3f along_v = (at(0, 1) - middle) * texel;
     const float u = static_cast<float>(column) * texel - 1;
     const float v = static_cast<float>(row) * texel - 1;
-    const std::size_t packet = tiles_.size();
-    tiles_.push_back({.origin = at(u, v),
-                      .columns = along_u,
-                      .rows = along_v,
-                      .first_texel = static_cast<std::uint32_t>(
-                          basis::index_from_texel(face_resolution_, {face, row, column}))});
+    const std::size_t packet = squares_.size();
+    squares_.push_back({.origin = at(u, v),
+                        .columns = along_u,
+                        .rows = along_v,
+                        .first_texel = static_cast<std::uint32_t>(
+                            basis::index_from_texel(face_resolution_, {face, row, column}))});
     float widest = 0;
     for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
         const std::size_t place = packet * kPacketSize + lane;
@@ -79,14 +80,14 @@ void LightTexels::add_tile(basis::Face face, std::uint32_t row, std::uint32_t co
         z_.push_back(direction.z);
         irradiance_.push_back(static_cast<float>(vector.length()));
         solid_angle_.push_back(static_cast<float>(basis::solid_angle_sr(
-            face_resolution_, row + lane / kTileSide, column + lane % kTileSide)));
+            face_resolution_, row + lane / kPacketSide, column + lane % kPacketSide)));
         for (const float corner : {0.0F, 1.0F}) {
             widest = std::max({widest, sine_between(direction, cube_point(place, corner, 0)),
                                sine_between(direction, cube_point(place, corner, 1))});
         }
     }
-    const Imath::V3f& origin = tiles_.back().origin;
-    const auto side = static_cast<float>(kTileSide);
+    const Imath::V3f& origin = squares_.back().origin;
+    const auto side = static_cast<float>(kPacketSide);
     const Imath::V3f centre = (origin + (along_u + along_v) * (0.5F * side)).normalized();
     float packet_widest = 0;
     for (const float corner : {0.0F, side}) {
@@ -111,26 +112,28 @@ void LightTexels::cube_points(std::size_t packet,
                               std::span<const float, kPacketSize> column_offset,
                               std::span<const float, kPacketSize> row_offset,
                               RayPacket& points) const {
-    const Tile& tile = tiles_[packet];
+    const Square& square = squares_[packet];
     const std::array<float*, 3> planes{points.x(), points.y(), points.z()};
     for (int axis = 0; axis < 3; ++axis) {
-        along_axis(tile.origin[axis], tile.columns[axis], tile.rows[axis], column_offset.data(),
-                   row_offset.data(), planes[static_cast<std::size_t>(axis)]);
+        along_axis(square.origin[axis], square.columns[axis], square.rows[axis],
+                   column_offset.data(), row_offset.data(),
+                   planes[static_cast<std::size_t>(axis)]);
     }
 }
 
 std::size_t LightTexels::texel_index(std::size_t place) const {
     const std::size_t lane = place % kPacketSize;
-    return tiles_[place / kPacketSize].first_texel + (lane / kTileSide) * face_resolution_ +
-           lane % kTileSide;
+    return squares_[place / kPacketSize].first_texel + (lane / kPacketSide) * face_resolution_ +
+           lane % kPacketSide;
 }
 
 void LightTexels::scatter(std::span<const float> by_place, std::span<float> by_texel) const {
-    for (std::size_t packet = 0; packet < tiles_.size(); ++packet) {
+    for (std::size_t packet = 0; packet < squares_.size(); ++packet) {
         const float* source = &by_place[packet * kPacketSize];
-        float* target = &by_texel[tiles_[packet].first_texel];
-        for (std::size_t row = 0; row < kTileSide; ++row) {
-            std::copy_n(source + row * kTileSide, kTileSide, target + row * face_resolution_);
+        float* target = &by_texel[squares_[packet].first_texel];
+        for (std::size_t row = 0; row < kPacketSide; ++row) {
+            std::copy_n(source + row * kPacketSide, kPacketSide,
+                        target + row * face_resolution_);
         }
     }
 }

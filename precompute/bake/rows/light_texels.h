@@ -1,7 +1,8 @@
 // The texels of the lighting cubemap in the order in which rays are cast at them.
 //
-// A *place* is an index in that order: tiles of 4×4 texels, a packet of sixteen rays each, the
-// tiles of a face along a Morton curve, so that what follows is close to what went before.
+// A *place* is an index in that order: squares of 4×4 texels, a packet of sixteen rays each,
+// the squares of a face along a Morton curve, so that what follows is close to what went
+// before.
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"
@@ -20,14 +21,16 @@ namespace relume::bake {
 
 class LightTexels {
   public:
-    static constexpr std::uint32_t kTileSide = 4;
+    // Texels along a side of the square that a packet of rays is cast at.
+    static constexpr std::uint32_t kPacketSide = 4;
+    static_assert(kPacketSide * kPacketSide == kPacketSize);
 
     // `face_resolution` as in basis/cubemap.h; `seed` chooses the jitter.
     LightTexels(std::uint32_t face_resolution, std::uint64_t seed);
 
     [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
     [[nodiscard]] std::size_t size() const { return solid_angle_.size(); }
-    [[nodiscard]] std::size_t packet_count() const { return tiles_.size(); }
+    [[nodiscard]] std::size_t packet_count() const { return squares_.size(); }
 
     // By place. ∫ ω dω of a texel is `direction · irradiance`; `direction` is unit and is the
     // texel's centroid.
@@ -54,11 +57,11 @@ class LightTexels {
     [[nodiscard]] Imath::V3f cube_point(std::size_t place,
                                         float column_offset,
                                         float row_offset) const {
-        const Tile& tile = tiles_[place / kPacketSize];
+        const Square& square = squares_[place / kPacketSize];
         const auto lane = static_cast<std::uint32_t>(place % kPacketSize);
-        return tile.origin +
-               tile.columns * (static_cast<float>(lane % kTileSide) + column_offset) +
-               tile.rows * (static_cast<float>(lane / kTileSide) + row_offset);
+        return square.origin +
+               square.columns * (static_cast<float>(lane % kPacketSide) + column_offset) +
+               square.rows * (static_cast<float>(lane / kPacketSide) + row_offset);
     }
     // The same for all places of a packet at once, as directions of rays.
     void cube_points(std::size_t packet,
@@ -68,10 +71,10 @@ class LightTexels {
 
     // From one column, and one row, to the next on the cube.
     [[nodiscard]] const Imath::V3f& column_step(std::size_t place) const {
-        return tiles_[place / kPacketSize].columns;
+        return squares_[place / kPacketSize].columns;
     }
     [[nodiscard]] const Imath::V3f& row_step(std::size_t place) const {
-        return tiles_[place / kPacketSize].rows;
+        return squares_[place / kPacketSize].rows;
     }
 
     [[nodiscard]] std::size_t texel_index(std::size_t place) const;
@@ -82,17 +85,17 @@ class LightTexels {
     void scatter(std::span<const float> by_place, std::span<float> by_texel) const;
 
   private:
-    struct Tile {
-        Imath::V3f origin;   // cube point of the tile's corner
+    struct Square {
+        Imath::V3f origin;   // cube point of the square's corner
         Imath::V3f columns;  // from one column to the next
         Imath::V3f rows;     // from one row to the next
         std::uint32_t first_texel = 0;
     };
 
-    void add_tile(basis::Face face, std::uint32_t row, std::uint32_t column);
+    void add_square(basis::Face face, std::uint32_t row, std::uint32_t column);
 
     std::uint32_t face_resolution_;
-    std::vector<Tile> tiles_;
+    std::vector<Square> squares_;
     std::vector<float> x_, y_, z_, irradiance_, solid_angle_;
     std::vector<float> jitter_column_, jitter_row_;
     std::vector<float> sine_radius_;

@@ -141,7 +141,7 @@ void Visibility::cast_first(RayPacket& packet,
         const std::size_t row = texel / n;  // over all faces
         std::uint8_t* state = &scratch.state[(row + 2 * (row / n) + 1) * side + texel % n + 1];
         for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-            state[lane / LightTexels::kTileSide * side + lane % LightTexels::kTileSide] =
+            state[lane / LightTexels::kPacketSide * side + lane % LightTexels::kPacketSide] =
                 static_cast<std::uint8_t>(states[lane]);
         }
     }
