@@ -2,6 +2,8 @@
 // measured while images are made.
 #pragma once
 
+#include "protocol/base/timing/running_mean.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -19,8 +21,8 @@ class CostModel {
 
   private:
     bool measured_ = false;
-    double nanoseconds_per_byte_ = 1;
-    double overhead_milliseconds_ = 0;
+    timing::RunningMean nanoseconds_per_byte_{1};
+    timing::RunningMean overhead_milliseconds_;
 };
 
 }  // namespace relume::engine

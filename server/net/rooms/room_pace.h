@@ -1,6 +1,7 @@
 // How long the images of a room take, and when a refinement of them should begin.
 #pragma once
 
+#include "protocol/base/timing/running_mean.h"
 #include "server/net/base/clock.h"
 #include "server/net/rooms/edit_rhythm.h"
 
@@ -11,29 +12,26 @@ class RoomPace {
   public:
     void edit_came(Clock::time_point at) { rhythm_.edit_came(at); }
     // The time from reading an edit to the slice that made its picture.
-    void edit_waited(Clock::duration time) { blend(waiting_ms_, time); }
+    void edit_waited(Clock::duration time) { waiting_ms_.add(milliseconds(time)); }
     void slice_took(Clock::duration time) { slice_took_ = time; }
     // From a picture to its JPEG, waiting for the encoder included.
-    void encoding_took(Clock::duration time) { blend(encoding_ms_, time); }
+    void encoding_took(Clock::duration time) { encoding_ms_.add(milliseconds(time)); }
 
     // What an image takes from edit to JPEG outside its slices: waiting for a worker, encoding.
-    [[nodiscard]] double beside_slice_ms() const { return waiting_ms_ + encoding_ms_; }
+    [[nodiscard]] double beside_slice_ms() const {
+        return waiting_ms_.mean() + encoding_ms_.mean();
+    }
     // When a refinement should begin, so that the image of the next edit does not have to wait
     // for it.
     [[nodiscard]] Clock::time_point time_to_refine(Clock::time_point now) const {
-        return rhythm_.time_for(slice_took_ + from_milliseconds(encoding_ms_), now);
+        return rhythm_.time_for(slice_took_ + from_milliseconds(encoding_ms_.mean()), now);
     }
 
   private:
-    static void blend(double& mean_ms, Clock::duration newest) {
-        constexpr double kNewest = 0.2;
-        mean_ms += kNewest * (milliseconds(newest) - mean_ms);
-    }
-
     EditRhythm rhythm_;
     Clock::duration slice_took_{};  // the last one
-    double waiting_ms_ = 0;
-    double encoding_ms_ = 0;
+    timing::RunningMean waiting_ms_;
+    timing::RunningMean encoding_ms_;
 };
 
 }  // namespace relume::net

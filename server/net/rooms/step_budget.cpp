@@ -17,19 +17,14 @@ constexpr double kLeastSlice = 0.25;
 // counts.
 constexpr double kLongestStepMs = 1000;
 
-void blend(double& mean, double newest) {
-    constexpr double kNewest = 0.2;
-    mean += kNewest * (newest - mean);
-}
-
 }  // namespace
 
 void StepBudget::composing_took(double milliseconds) {
-    blend(compose_ms_, milliseconds);
+    compose_ms_.add(milliseconds);
 }
 
 void StepBudget::begin_step(double lighting_ms) {
-    blend(lighting_ms_, lighting_ms);
+    lighting_ms_.add(lighting_ms);
     light_is_new_ = true;
     spent_ms_ = 0;
     spent_columns_ = 0;
@@ -48,8 +43,8 @@ relighting::Budget StepBudget::for_step(const relighting::Budget& budget,
         // All of them are lit, composed and encoded on the same threads.
         const double rounds = std::max(
             1.0, static_cast<double>(images) / tbb::this_task_arena::max_concurrency());
-        const double taken =
-            rounds * (compose_ms_ + beside_ms_ + (light_is_new_ ? lighting_ms_ : 0));
+        const double taken = rounds * (compose_ms_.mean() + beside_ms_ +
+                                       (light_is_new_ ? lighting_ms_.mean() : 0));
         step.milliseconds =
             std::max(kLeastPart * *step.milliseconds, *step.milliseconds - taken);
     }

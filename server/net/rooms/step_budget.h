@@ -1,6 +1,7 @@
 // How much of an image's time is for relighting, and how much of that its slices have spent.
 #pragma once
 
+#include "protocol/base/timing/running_mean.h"
 #include "protocol/relighting/budget.h"
 
 #include <cstddef>
@@ -35,7 +36,7 @@ class StepBudget {
     // The longest that a slice relights.
     [[nodiscard]] double ceiling_ms() const { return ceiling_ms_; }
     // The mean of what it has taken to make new light.
-    [[nodiscard]] double lighting_ms() const { return lighting_ms_; }
+    [[nodiscard]] double lighting_ms() const { return lighting_ms_.mean(); }
 
   private:
     // The budget of the step, before any of it is spent.
@@ -43,8 +44,8 @@ class StepBudget {
                                               std::size_t images) const;
 
     const double ceiling_ms_;
-    double lighting_ms_ = 0;
-    double compose_ms_ = 0;
+    timing::RunningMean lighting_ms_;
+    timing::RunningMean compose_ms_;
     double beside_ms_ = 0;
     bool light_is_new_ = false;  // no slice of the step has run
     double spent_ms_ = 0;
