@@ -1,6 +1,7 @@
 #include "precompute/scene/camera.h"
 
 #include "precompute/scene/error.h"
+#include "protocol/base/geometry/pinhole.h"
 
 #include <fmt/format.h>
 
@@ -56,9 +57,8 @@ Camera::Camera(const CameraPlacement& placement, std::uint32_t width, std::uint3
 }
 
 Imath::V3f Camera::direction_from_pixel(float x, float y) const {
-    const float across = (2.0F * x / static_cast<float>(width_) - 1.0F) * tan_half_width_;
-    const float along = (1.0F - 2.0F * y / static_cast<float>(height_)) * tan_half_height_;
-    return (forward_ + right_ * across + up_ * along).normalized();
+    return geometry::Pinhole{right_, up_, forward_, tan_half_width_, tan_half_height_}
+        .direction_from_pixel(x, y, width_, height_);
 }
 
 }  // namespace relume::scene

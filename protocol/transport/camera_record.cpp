@@ -1,5 +1,7 @@
 #include "protocol/transport/camera_record.h"
 
+#include "protocol/base/geometry/pinhole.h"
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -44,9 +46,8 @@ void require_orthonormal(const ManifestReader& object, const CameraRecord& camer
 }  // namespace
 
 Imath::V3f CameraRecord::direction_from_pixel(float x, float y, const TileGrid& image) const {
-    const float right_amount = (2 * x / static_cast<float>(image.width) - 1) * tan_half_width;
-    const float up_amount = (1 - 2 * y / static_cast<float>(image.height)) * tan_half_height;
-    return (forward + right * right_amount + up * up_amount).normalized();
+    return geometry::Pinhole{right, up, forward, tan_half_width, tan_half_height}
+        .direction_from_pixel(x, y, image.width, image.height);
 }
 
 json json_from(const CameraRecord& camera) {

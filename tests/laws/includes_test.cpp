@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::set<std::string>>& allowed_includes() {
     static const std::map<std::string, std::set<std::string>> allowed{
         {"protocol/base/files", {"protocol/base/text"}},
+        {"protocol/base/geometry", {}},
         {"protocol/base/text", {}},
         {"protocol/base/timing", {}},
         {"protocol/base/program", {"protocol/base/files", "protocol/base/text"}},
