@@ -242,7 +242,7 @@ int run_relight(const Arguments& arguments) {
     }
     const auto transport = transport::Transport::open(existing_directory(arguments));
     const transport::Manifest& manifest = transport->manifest();
-    const RelitImage relit =
+    const DenseImage relit =
         relight(*transport,
                 read_cubemap_strip(arguments.light, manifest.signal_basis.face_resolution()));
     FloatImage image{relit.width, relit.height, 4, {}};

@@ -72,7 +72,7 @@ void to_receivers(std::vector<double>& sums) {
 
 }  // namespace
 
-RelitImage relight(const transport::Transport& transport, const CubemapLight& light) {
+DenseImage relight(const transport::Transport& transport, const CubemapLight& light) {
     const transport::Manifest& manifest = transport.manifest();
     const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
     const std::size_t texels = basis::texel_count(manifest.signal_basis.face_resolution());
@@ -90,7 +90,7 @@ RelitImage relight(const transport::Transport& transport, const CubemapLight& li
         add_shard(transport, transport.shards()[i], coefficients, pixels);
     });
     to_receivers(pixels);
-    RelitImage image{
+    DenseImage image{
         .width = manifest.image().width, .height = manifest.image().height, .rgb = {}};
     for (std::size_t c = 0; c < 3; ++c) {
         image.rgb[c].resize(std::size_t{image.width} * image.height);

@@ -14,14 +14,14 @@ namespace relume::bake {
 // Radiance of the 6·n² texels, row-major (basis/cubemap.h), in red, green and blue.
 using CubemapLight = std::array<std::vector<float>, 3>;
 
-struct RelitImage {
+struct DenseImage {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::array<std::vector<double>, 3> rgb;  // height·width, linear, premultiplied by coverage
 };
 
 // Throws BakeError when the light's size is not the transport's.
-[[nodiscard]] RelitImage relight(const transport::Transport& transport,
+[[nodiscard]] DenseImage relight(const transport::Transport& transport,
                                  const CubemapLight& light);
 
 // A strip of the six faces, 6n×n or n×6n, of radiance, in any format OpenImageIO reads. Throws

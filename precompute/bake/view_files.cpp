@@ -52,7 +52,7 @@ float displayed(float x) {
 void write_pictures(const std::filesystem::path& directory, const ViewImages& view) {
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
-    const RelitImage relit = relight(
+    const DenseImage relit = relight(
         *transport, thumbnail_light(manifest.signal_basis.face_resolution(), manifest.camera));
     constexpr float kBackdrop = 0.12F;
     std::vector<float> pixels;

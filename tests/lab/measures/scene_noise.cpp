@@ -28,7 +28,7 @@ ReferenceLight grey_light(std::string name,
     return light;
 }
 
-std::vector<float> interleaved(const bake::RelitImage& image) {
+std::vector<float> interleaved(const bake::DenseImage& image) {
     std::vector<float> rgb;
     rgb.reserve(3 * image.rgb[0].size());
     for (std::size_t i = 0; i < image.rgb[0].size(); ++i) {

@@ -60,7 +60,7 @@ TEST_F(Bake, UnoccludedWhiteLambertShowsItsAlbedoUnderConstantLight) {
     parameters.bounces = 0;
     bake(scene::build_builtin_scene("plane"), parameters, path_);
     const auto transport = transport::Transport::open(path_);
-    const RelitImage image = relight(*transport, constant_light(16));
+    const DenseImage image = relight(*transport, constant_light(16));
     for (const auto& plane : image.rgb) {
         for (const double value : plane) {
             EXPECT_NEAR(value, 1, 0.01);
@@ -76,7 +76,7 @@ TEST_F(Bake, TransportNeverGivesMoreThanItGetsUnderConstantLight) {
         const fs::path path = scratch_.path() / name;
         bake(scene::build_builtin_scene(name), parameters, path);
         const auto transport = transport::Transport::open(path);
-        const RelitImage image = relight(*transport, constant_light(8));
+        const DenseImage image = relight(*transport, constant_light(8));
         double brightest = 0;
         for (const auto& plane : image.rgb) {
             for (const double value : plane) {
@@ -100,7 +100,7 @@ TEST_F(Bake, BouncesMakeAWhiteBowlBrighterTowardsOne) {
         const fs::path path = scratch_.path() / std::to_string(bounces);
         bake(scene::build_builtin_scene("bowl"), parameters, path);
         const auto transport = transport::Transport::open(path);
-        const RelitImage image = relight(*transport, constant_light(8));
+        const DenseImage image = relight(*transport, constant_light(8));
         const double centre = image.rgb[1][16 * 32 + 16];
         EXPECT_GT(centre, last + 0.01);
         last = centre;

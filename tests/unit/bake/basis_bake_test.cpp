@@ -62,7 +62,7 @@ TEST_F(BasisBake, BothBasesGiveTheSameInterreflectionUnderConstantLight) {
     BakeParameters harmonics = haar;
     harmonics.basis = Kind::spherical_harmonics;
     harmonics.order = 4;
-    const RelitImage reference = relight(*baked("box", haar), white);
+    const DenseImage reference = relight(*baked("box", haar), white);
     EXPECT_LT(relative_l2(relight(*baked("box", harmonics), white), reference), 5e-3);
 }
 
@@ -72,7 +72,7 @@ TEST_F(BasisBake, ConvergesToTheWaveletImageUnderLowFrequencyLight) {
     const CubemapLight light = light_from(kN, [](const Imath::V3f& d) {
         return std::exp(5 * (d.dot(Imath::V3f(0.48F, 0.8F, 0.36F)) - 1));
     });
-    const RelitImage reference = relight(*baked("table", parameters_of(Kind::haar)), light);
+    const DenseImage reference = relight(*baked("table", parameters_of(Kind::haar)), light);
     double last = 1;
     for (const std::uint32_t order : {2U, 5U, 12U}) {
         const double error = relative_l2(

@@ -37,7 +37,7 @@ class Framing : public testing::Test {
                 .samples = 16,
                 .pixel_samples = 4};
     }
-    RelitImage image_of(const scene::Scene& scene, const CubemapLight& light) {
+    DenseImage image_of(const scene::Scene& scene, const CubemapLight& light) {
         const auto path = scratch_.path() / std::to_string(count_++);
         bake(scene, parameters(), path);
         return relight(*transport::Transport::open(path), light);
@@ -82,7 +82,7 @@ class Framing : public testing::Test {
 TEST_F(Framing, GltfScenesFarAwayAndOfAnySizeGiveOnePicture) {
     const std::string folder = "12-far-origin-and-scale/";
     const CubemapLight light = slanted_light();
-    const RelitImage reference =
+    const DenseImage reference =
         image_of(scene::import_scene(case_path(folder + "ref.gltf")), light);
     for (const char* file : {"far1e5_node", "scale_um", "scale_mm", "scale_10", "scale_3000",
                              "scale_1e4", "scale_100000"}) {
@@ -96,7 +96,7 @@ TEST_F(Framing, GltfScenesFarAwayAndOfAnySizeGiveOnePicture) {
 
 TEST_F(Framing, TextScenesFarAwayAndOfAnySizeGiveOnePicture) {
     const CubemapLight light = slanted_light();
-    const RelitImage reference = image_of(hut(0, 1, false), light);
+    const DenseImage reference = image_of(hut(0, 1, false), light);
     for (const bool as_ply : {false, true}) {
         for (const double offset : {1e4, -1e6, 1e7}) {
             EXPECT_LT(relative_l2(image_of(hut(offset, 1, as_ply), light), reference), 1e-3)
@@ -130,7 +130,7 @@ TEST_F(Framing, ZUpTurnsTheScene) {
     options.up_axis = scene::UpAxis::z;
     options.camera = {.eye = Imath::V3d(0, 0, 4), .look_at = Imath::V3d(0, 0, 0)};
     const scene::Scene scene = scene::import_scene(case_path("47-z-up/floor.ply"), options);
-    const RelitImage image = image_of(
+    const DenseImage image = image_of(
         scene, light_from(kN, [](const Imath::V3f& d) { return d.y > 0 ? 1.0F : 0.0F; }));
     for (const auto& plane : image.rgb) {
         EXPECT_NEAR(plane[12 * 24 + 12], 0.5, 0.01);

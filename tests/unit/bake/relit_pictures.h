@@ -25,7 +25,7 @@ CubemapLight light_from(std::uint32_t face_resolution, Radiance radiance) {
 }
 
 // ‖image − reference‖ / ‖reference‖ over all pixels and colours.
-inline double relative_l2(const RelitImage& image, const RelitImage& reference) {
+inline double relative_l2(const DenseImage& image, const DenseImage& reference) {
     double difference = 0;
     double norm = 0;
     for (std::size_t c = 0; c < 3; ++c) {
