@@ -5,6 +5,7 @@
 #include "precompute/bake/rows/path_tracer.h"
 #include "precompute/bake/rows/row_baker.h"
 #include "protocol/transport/transport.h"
+#include "tests/support/sample_moments.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -80,19 +81,18 @@ Estimate estimate_from_rows(const scene::Scene& scene,
                             const std::vector<Imath::V3f>& light,
                             std::uint32_t seeds) {
     const std::size_t pixels = std::size_t{parameters.width} * parameters.height;
-    Estimate estimate{std::vector<V3d>(pixels, V3d(0, 0, 0)),
-                      std::vector<V3d>(pixels, V3d(0, 0, 0)), seeds};
+    std::vector<SampleMoments<V3d>> moments(pixels, SampleMoments<V3d>(V3d(0, 0, 0)));
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
         parameters.seed = seed + 1;
         const LinearImage image = relit_from_rows(scene, parameters, light);
-        for (std::size_t p = 0; p < pixels; ++p) {
-            const V3d step = image.pixels[p] - estimate.mean[p];
-            estimate.mean[p] += step / (seed + 1.0);
-            estimate.variance[p] += step * (image.pixels[p] - estimate.mean[p]);
-        }
+        for (std::size_t p = 0; p < pixels; ++p)
+            moments[p].add(image.pixels[p]);
     }
-    for (V3d& variance : estimate.variance)
-        variance /= seeds * (seeds - 1.0);
+    Estimate estimate{.mean = {}, .variance = {}, .seeds = seeds};
+    for (const SampleMoments<V3d>& pixel : moments) {
+        estimate.mean.push_back(pixel.mean());
+        estimate.variance.push_back(pixel.variance_of_mean());
+    }
     return estimate;
 }
 

@@ -3,6 +3,7 @@
 #include "precompute/scene/camera.h"
 #include "tests/support/reference_tracer/geometry.h"
 #include "tests/support/reference_tracer/random.h"
+#include "tests/support/sample_moments.h"
 
 #include <tbb/parallel_for.h>
 
@@ -79,23 +80,18 @@ TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions&
         Random random(options.seed * 0x100000001b3U + pixel * 0x9e3779b1U + 17);
         const auto x = static_cast<double>(pixel % options.width);
         const auto y = static_cast<double>(pixel / options.width);
-        V3d mean(0, 0, 0);
-        V3d scatter(0, 0, 0);  // Welford's sum of squared deviations
-        for (std::uint32_t i = 1; i <= options.samples; ++i) {
+        test::SampleMoments<V3d> radiance(V3d(0, 0, 0));
+        for (std::uint32_t i = 0; i < options.samples; ++i) {
             const bool is_box = options.filter == PixelFilter::box;
             const double dx = is_box ? random.uniform() : 0.5;
             const double dy = is_box ? random.uniform() : 0.5;
             const Imath::V3f direction = camera.direction_from_pixel(
                 static_cast<float>(x + dx), static_cast<float>(y + dy));
-            const V3d value = traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
-                                              V3d(direction).normalized(), random);
-            const V3d step = value - mean;
-            mean += step / static_cast<double>(i);
-            scatter += step * (value - mean);
+            radiance.add(traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
+                                         V3d(direction).normalized(), random));
         }
-        const double n = options.samples;
-        image.mean[pixel] = mean;
-        image.variance[pixel] = scatter / (n * (n - 1.0));
+        image.mean[pixel] = radiance.mean();
+        image.variance[pixel] = radiance.variance_of_mean();
     });
     return image;
 }

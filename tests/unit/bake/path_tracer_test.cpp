@@ -4,6 +4,7 @@
 
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/scene/builtin.h"
+#include "tests/support/sample_moments.h"
 
 #include <gtest/gtest.h>
 
@@ -49,17 +50,11 @@ class PathTracerTest : public testing::Test {
         return sum / paths.paths;
     }
 
-    struct Moments {
-        double mean = 0;
-        double variance = 0;
-    };
-    [[nodiscard]] Moments moments(std::uint32_t samples, std::uint32_t bounces) const {
-        Moments found;
+    [[nodiscard]] test::SampleMoments<double> moments(std::uint32_t samples,
+                                                      std::uint32_t bounces) const {
+        test::SampleMoments<double> found(0);
         for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
-            const double value = response(samples, bounces, seed);
-            const double step = value - found.mean;
-            found.mean += step / (seed + 1.0);
-            found.variance += step * (value - found.mean) / (kSeeds - 1.0);
+            found.add(response(samples, bounces, seed));
         }
         return found;
     }
@@ -74,12 +69,12 @@ TEST_F(PathTracerTest, LooksChangeTheNoiseAndNotTheMean) {
     ASSERT_EQ(PathTracer::looks(1, kTooManyToLook), 0U);
     ASSERT_GT(PathTracer::looks(1, kPaths), 1U);
     for (const std::uint32_t bounces : {1U, 3U}) {
-        const Moments several = moments(kPaths, bounces);
-        const Moments single = moments(kTooManyToLook, bounces);
-        const double z = (several.mean - single.mean) /
-                         std::sqrt((several.variance + single.variance) / kSeeds);
-        EXPECT_LT(std::abs(z), 3.5) << several.mean << " " << single.mean;
-        EXPECT_LT(several.variance, single.variance / 2);
+        const auto several = moments(kPaths, bounces);
+        const auto single = moments(kTooManyToLook, bounces);
+        const double z = (several.mean() - single.mean()) /
+                         std::sqrt(several.variance_of_mean() + single.variance_of_mean());
+        EXPECT_LT(std::abs(z), 3.5) << several.mean() << " " << single.mean();
+        EXPECT_LT(several.variance(), single.variance() / 2);
     }
 }
 
