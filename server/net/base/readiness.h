@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <stop_token>
 
 namespace relume::net {
 
@@ -21,11 +22,16 @@ class Readiness {
     void set_draining() {
         phase_.store(Phase::draining);
         phase_.notify_all();
+        draining_.request_stop();
     }
+    // For those who wait and need not once the server drains. Their callbacks run in the thread
+    // that calls `set_draining`.
+    [[nodiscard]] std::stop_token draining() const { return draining_.get_token(); }
     void wait_until_started() const { phase_.wait(Phase::starting); }
 
   private:
     std::atomic<Phase> phase_{Phase::starting};
+    std::stop_source draining_;
 };
 
 }  // namespace relume::net

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <utility>
@@ -63,13 +64,33 @@ class HttpConnection {
     }
 
     asio::awaitable<void> run() {
-        bool again = true;
-        while (again) {
-            again = co_await serve_one();
+        while (co_await request_begins()) {
+            const bool again = co_await serve_one();
+            if (!again) {
+                break;
+            }
         }
     }
 
   private:
+    // False when none came in time, or the server drains: nobody waits for an answer then.
+    asio::awaitable<bool> request_begins() {
+        if (buffer_.size() != 0) {
+            co_return true;
+        }
+        const auto executor = stream_.get_executor();
+        // Outlives the connection in a callback that comes late.
+        const auto patience =
+            std::make_shared<asio::steady_timer>(executor, services_.options.request_timeout);
+        const std::stop_callback on_drain(services_.readiness.draining(), [executor, patience] {
+            asio::post(executor, [patience] { patience->cancel(); });
+        });
+        const auto first =
+            co_await (stream_.socket().async_wait(asio::socket_base::wait_read, kNoThrow) ||
+                      patience->async_wait(kNoThrow));
+        co_return first.index() == 0;
+    }
+
     // False when the connection is done, or no longer this one's.
     asio::awaitable<bool> serve_one() {
         HeaderParser parser;

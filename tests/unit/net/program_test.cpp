@@ -138,6 +138,24 @@ TEST_F(ProgramTest, AClientThatIsDeafDoesNotHoldUpTheEnd) {
     EXPECT_EQ(server.wait(), 0);
 }
 
+// As browsers keep them.
+TEST_F(ProgramTest, ConnectionsBetweenRequestsDoNotHoldUpTheEnd) {
+    std::vector<std::string> all = flags();
+    all.insert(all.end(), {"--drain-ms", "2000"});
+    Process server(all, log());
+    const std::uint16_t port = wait_until_ready();
+    RawSocket answered(port);
+    answered.send("GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    EXPECT_TRUE(answered.receive_until("\r\n\r\n").starts_with("HTTP/1.1 200 "));
+    RawSocket silent(port);
+    // Both are being served: what comes later is answered.
+    EXPECT_EQ(http(port, "GET", "/healthz").status, 200);
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+    const std::string lines = text_of(log());
+    EXPECT_NE(lines.find("connections_cut=0"), std::string::npos) << lines;
+}
+
 // Standard error is a pipe that its reader has forgotten.
 TEST_F(ProgramTest, ALogThatNobodyReadsHoldsNothingUp) {
     ASSERT_EQ(mkfifo(log().c_str(), 0600), 0);
