@@ -1,6 +1,7 @@
 #include "client/cli/room_connection.h"
 
 #include "protocol/wire/errors.h"
+#include "protocol/wire/room_patch.h"
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/strand.hpp>
@@ -8,6 +9,7 @@
 #include <boost/beast/websocket.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <random>
 
@@ -35,8 +37,8 @@ std::string target_of(const ConnectionOptions& options) {
 }
 
 // Four half planes, and what zstd adds where it cannot compress.
-std::size_t largest_frame(const wire::SceneSummary& scene) {
-    const std::size_t planes = std::size_t{8} * scene.width * scene.height;
+std::size_t largest_frame(const wire::ImageSize& image) {
+    const std::size_t planes = std::size_t{8} * image.width * image.height;
     return wire::kMaxServerMessageBytes + planes + planes / 128;
 }
 
@@ -187,13 +189,18 @@ class RoomConnection::Socket : public std::enable_shared_from_this<Socket> {
             // Later ones stand in the place of changes, and say nothing else that is new.
             if (!open_) {
                 open_ = true;
-                scene_ = snapshot->scene;
-                stream_.read_message_max(largest_frame(scene_));
+                expect_images_of(snapshot->state.image, snapshot->revision);
                 listener_.on_snapshot(*snapshot);
             }
         } else if (const auto* change = std::get_if<wire::Change>(&message)) {
             if (change->edit_id) {
                 clock_.change_received(*change->edit_id, change->revision);
+            }
+            if (change->patch.contains("image")) {
+                wire::RoomState after;
+                after.image = image_;
+                wire::apply_patch(after, {{"image", change->patch["image"]}}, {});
+                expect_images_of(after.image, change->revision);
             }
             listener_.on_change(*change);
         } else if (const auto* refusal = std::get_if<wire::ErrorMessage>(&message)) {
@@ -204,13 +211,20 @@ class RoomConnection::Socket : public std::enable_shared_from_this<Socket> {
         }
     }
 
+    void expect_images_of(const wire::ImageSize& image, std::uint64_t revision) {
+        stream_.read_message_max(std::max(largest_frame(image_), largest_frame(image)));
+        image_ = image;
+        image_revision_ = revision;
+    }
+
     void take_image(std::span<const std::byte> frame, Clock::time_point now) {
         const wire::ImageHeader header = wire::decode_image_header(frame);
-        if (header.width != scene_.width || header.height != scene_.height) {
+        const bool has_size = header.width == image_.width && header.height == image_.height;
+        if (!has_size && header.revision >= image_revision_) {
             throw wire::WireError(
                 wire::ErrorCode::bad_image, "width",
                 fmt::format("{}×{}", header.width, header.height),
-                fmt::format("{}×{}, the scene's", scene_.width, scene_.height));
+                fmt::format("{}×{}, the room's", image_.width, image_.height));
         }
         const auto payload = frame.subspan(wire::kImageHeaderBytes);
         listener_.on_image({.header = header,
@@ -276,7 +290,8 @@ class RoomConnection::Socket : public std::enable_shared_from_this<Socket> {
     beast::flat_buffer buffer_;
     std::deque<std::string> queue_;
     EditClock clock_;
-    wire::SceneSummary scene_;
+    wire::ImageSize image_;             // of images
+    std::uint64_t image_revision_ = 0;  // since this revision
     std::uint64_t next_edit_id_ = 1;
     bool open_ = false;
     bool closing_ = false;

@@ -57,14 +57,19 @@ std::shared_ptr<const light::PrefilteredEnvironment> find_environment(
 
 light::LightRig rig_from(const wire::RoomState& state, const Arguments& arguments) {
     light::LightRig rig;
+    const bool solo = wire::any_solo(state.lights);
     rig.environment = find_environment(arguments, state.environment.name);
     if (state.blend.name) {
         rig.blend = find_environment(arguments, *state.blend.name);
         rig.blend_amount = static_cast<float>(state.blend.amount);
     }
     rig.rotation = Imath::Quatf(state.rotation.quaternion);
-    rig.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
+    rig.environment_scale =
+        solo ? Imath::V3f(0) : Imath::V3f(state.environment.tint * state.environment.gain);
     for (const auto& [id, area] : state.lights) {
+        if (!wire::lights_now(area, solo)) {
+            continue;
+        }
         rig.lights.push_back({.direction = Imath::V3f(area.direction),
                               .angular_radius_radians = static_cast<float>(
                                   area.angular_radius_degrees * std::numbers::pi / 180),

@@ -3,6 +3,8 @@
 #include "protocol/wire/sections/room_sections.h"
 #include "protocol/wire/sections/section_json.h"
 
+#include <algorithm>
+
 namespace relume::wire {
 namespace {
 
@@ -67,6 +69,21 @@ AppliedPatch apply_patch(RoomState& state, const json& patch, const Limits& limi
     reader.refuse_other_keys();
     state = std::move(next);
     return applied;
+}
+
+void require_kept(const RoomState& before,
+                  const RoomState& after,
+                  std::span<const std::string> edits) {
+    for_each_section([&](const auto& section, const auto member) {
+        const std::string key(fields_of(section).key);
+        if (after.*member != before.*member &&
+            std::find(edits.begin(), edits.end(), key) == edits.end()) {
+            throw WireError(ErrorCode::unsupported, "/" + key,
+                            quote(to_json(section, after.*member)),
+                            quote(to_json(section, before.*member)) +
+                                ", which rooms of this scene keep");
+        }
+    });
 }
 
 json merge_patches(json first, const json& second) {

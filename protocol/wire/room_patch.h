@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <span>
+#include <string>
+
 namespace relume::wire {
 
 struct AppliedPatch {
@@ -25,6 +28,12 @@ struct AppliedPatch {
 // Throws WireError with a path into the patch, and leaves `state` as it was. Names of
 // environments are checked for form only; whether they exist is for the caller to know.
 AppliedPatch apply_patch(RoomState& state, const nlohmann::json& patch, const Limits& limits);
+
+// Throws WireError{unsupported} naming the first section in which the states differ and that is
+// not among `edits`, the sections that a scene lets people edit (scene_summary.h).
+void require_kept(const RoomState& before,
+                  const RoomState& after,
+                  std::span<const std::string> edits);
 
 // The patch that has the effect of `first` and then `second`. Both are normalised (or touch
 // disjoint parts): composing merge patches is exact only where a removed object comes back

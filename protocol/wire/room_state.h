@@ -11,6 +11,7 @@
 #include "protocol/wire/sections/blend.h"
 #include "protocol/wire/sections/display.h"
 #include "protocol/wire/sections/environment.h"
+#include "protocol/wire/sections/image_size.h"
 #include "protocol/wire/sections/rotation.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -24,6 +25,7 @@ struct RoomState {
     Rotation rotation;
     AreaLights lights;
     Background background;
+    ImageSize image;
     relighting::Strategy strategy;
     relighting::Budget budget;
     Display display;

@@ -47,10 +47,17 @@ Snapshot snapshot_from(ObjectReader& reader) {
         throw WireError(ErrorCode::unsupported, "/protocol", std::to_string(version),
                         std::to_string(kProtocolVersion));
     }
+    SceneSummary scene = scene_summary_from_json(reader.require("scene"), "/scene");
+    const json& stated = reader.require("state");
+    RoomState state = room_state_from_json(known_part(stated));
+    if (!stated.contains("image")) {
+        // An older server: its images are as large as the scene.
+        state.image = {.width = scene.width, .height = scene.height};
+    }
     return {.room = name_from_json(reader.require("room"), "/room"),
-            .scene = scene_summary_from_json(reader.require("scene"), "/scene"),
+            .scene = std::move(scene),
             .revision = integer_from(reader, "revision"),
-            .state = room_state_from_json(known_part(reader.require("state"))),
+            .state = std::move(state),
             .viewers = count_from(reader, "viewers"),
             .limits = limits_from_json(reader.require("limits"))};
 }

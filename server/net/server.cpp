@@ -183,7 +183,7 @@ void Server::Parts::warm_up() {
         environments.find(configuration.rooms.environment);
     try {
         for (const auto& scene : scenes.list()) {
-            static_cast<void>(first->prefiltered(scene->scene->face_resolution()));
+            static_cast<void>(first->prefiltered(scene->loaded->face_resolution()));
         }
     } catch (const std::exception& failure) {
         spdlog::error("environment_broken name={} reason={:?}", configuration.rooms.environment,

@@ -36,8 +36,9 @@ RunningServer::RunningServer(const fs::path& scene) {
         server_program(),
         std::vector<std::string>{"--scenes", scenes.string(), "--listen", "127.0.0.1:0",
                                  "--port-file", (folder_.path() / "port").string(),
-                                 "--max-rooms", "1024", "--max-connections", "4096",
-                                 "--log-level", "warn"},
+                                 "--max-rooms", "1024", "--max-rooms-per-address", "1024",
+                                 "--max-connections", "4096", "--max-connections-per-address",
+                                 "4096", "--log-level", "warn"},
         folder_.path(), "server");
     wait_until_ready();
 }

@@ -12,8 +12,10 @@ import {
     type RoomState,
 } from "./wire/state";
 
-/** A file may say how to relight as well. */
-const kSections = Object.keys(kStages) as (keyof RoomState)[];
+/** All but the size of the image. A file may say how to relight as well. */
+const kSections = (Object.keys(kStages) as (keyof RoomState)[]).filter(
+    (key) => key !== "image",
+);
 
 /** What is artistic: all but how images are worked out. */
 const kLightingSections = kSections.filter((key) => kStages[key] !== "policy");
@@ -32,6 +34,11 @@ export class LightingError extends Error {
     }
 }
 
+/** With how to relight. */
+export function wholeLightingOf(state: RoomState): Lighting {
+    return Object.fromEntries(kSections.map((key) => [key, state[key]])) as Lighting;
+}
+
 /** With the display that its viewer sees. */
 export function lightingOf(state: RoomState, display: DisplayState): Lighting {
     const sections = kLightingSections.map((key) => [key, state[key]]);
@@ -42,7 +49,7 @@ export function textFromLighting(lighting: Lighting): string {
     return `${JSON.stringify(lighting, null, 2)}\n`;
 }
 
-/** A file may leave sections out; the server checks what is in them. */
+/** A file may leave sections out; the server checks what is in them. A size is passed over. */
 export function lightingFromText(text: string): Lighting {
     let json: Json;
     try {
@@ -63,7 +70,7 @@ export function lightingFromText(text: string): Lighting {
             `an object with ${known.join(", ")}`,
         );
     }
-    const other = Object.keys(json).filter((key) => !known.includes(key));
+    const other = Object.keys(json).filter((key) => !(key in kStages));
     const sections = known.filter((key) => key in json);
     if (other.length > 0 || sections.length === 0) {
         throw new LightingError(
@@ -81,7 +88,7 @@ export function lightingFromText(text: string): Lighting {
             );
         }
     }
-    return json as unknown as Lighting;
+    return Object.fromEntries(sections.map((key) => [key, json[key]])) as unknown as Lighting;
 }
 
 /**

@@ -16,7 +16,7 @@ import { ImageZoom } from "./image_zoom";
 import { inspect, type Inspection } from "./inspection";
 import { LightMap } from "./light_map";
 import { LightReturn } from "./light_return";
-import type { Lighting } from "./lighting";
+import { type Lighting, wholeLightingOf } from "./lighting";
 import { LightsPanel } from "./lights_panel";
 import type { Notices } from "./notices";
 import { medianRadiance } from "./median_radiance";
@@ -177,7 +177,7 @@ export class Studio {
             setText(byId("room-name"), room);
             document.title = `${scene.name} – Relume`;
             void this.loadEnvironments();
-            if (forgotten !== null) this.lightReturn.offer(forgotten);
+            if (forgotten !== null) this.lightReturn.offer(wholeLightingOf(forgotten));
         });
         connection.stateChanged.listen((state) => {
             if (connection.isSettled) this.lightReturn.roomChanged(state);

@@ -6,6 +6,7 @@ import {
     mapsOf,
     patchToLighting,
     textFromLighting,
+    wholeLightingOf,
     withoutMaps,
 } from "../src/lighting";
 import { keysToForget, kMostKeptBytes, kMostKeptFiles } from "../src/upload_store";
@@ -53,6 +54,14 @@ describe("lightings", () => {
             expect(lightingFromText(textFromLighting(saved))).toEqual(saved);
             expect(Object.keys(saved)).not.toContain("budget");
         }
+    });
+
+    it("leave the size of the image to the room", () => {
+        const state = stateWith({ image: { width: 96, height: 64 } });
+        expect(wholeLightingOf(state)).not.toHaveProperty("image");
+        const text = JSON.stringify(state);
+        expect(lightingFromText(text)).toEqual(wholeLightingOf(state));
+        expect(() => lightingFromText('{"image": {"width": 96}}')).toThrow(LightingError);
     });
 
     it.each([

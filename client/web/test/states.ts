@@ -9,6 +9,7 @@ export function stateWith(change: Partial<RoomState> = {}): RoomState {
         rotation: { quaternion: [1, 0, 0, 0] },
         lights: {},
         background: { mode: "environment", colour: [0, 0, 0] },
+        image: { width: 512, height: 512 },
         strategy: { method: "guarded", priority: "benefit" },
         budget: { milliseconds: 8, target_error: 0 },
         display: { exposure_stops: 0, tone: "filmic" },

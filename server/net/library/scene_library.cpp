@@ -17,20 +17,20 @@ namespace relume::net {
 namespace fs = std::filesystem;
 
 wire::SceneSummary ServedScene::summary() const {
-    const basis::CubemapBasis& basis = scene->projection().basis();
+    const basis::CubemapBasis& basis = loaded->projection().basis();
     const bool is_haar = basis.kind() == basis::CubemapBasis::Kind::haar;
-    const auto& sampling = scene->transport().manifest().sampling_error;
+    const auto& sampling = loaded->transport().manifest().sampling_error;
     return {.name = name,
-            .kind = std::string(transport::kKindNames.name(scene->transport().manifest().kind)),
-            .width = scene->view().image().width,
-            .height = scene->view().image().height,
+            .kind = std::string(transport::kKindNames.name(loaded->transport().manifest().kind)),
+            .width = loaded->view().image().width,
+            .height = loaded->view().image().height,
             .basis = std::string(transport::name_of(basis.kind())),
             .order = is_haar ? std::nullopt : std::optional(basis.order()),
-            .face_resolution = scene->face_resolution(),
-            .columns = static_cast<std::uint32_t>(scene->columns().count()),
-            .channels = scene->transport().manifest().colour.channels,
-            .bytes = scene->transport().total_bytes(),
-            .memory_bytes = scene->bytes(),
+            .face_resolution = loaded->face_resolution(),
+            .columns = static_cast<std::uint32_t>(loaded->columns().count()),
+            .channels = loaded->transport().manifest().colour.channels,
+            .bytes = loaded->transport().total_bytes(),
+            .memory_bytes = loaded->bytes(),
             .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
             .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
                       "budget", "display"}};
@@ -96,13 +96,13 @@ void SceneLibrary::open(const fs::path& directory) {
     std::shared_ptr<const ServedScene> scene = std::make_shared<const ServedScene>(
         ServedScene{.name = name,
                     .directory = directory,
-                    .scene = std::make_shared<const served::Scene>(std::move(transport)),
+                    .loaded = std::make_shared<const served::Scene>(std::move(transport)),
                     .sky = std::move(sky)});
-    const transport::TileGrid& image = scene->scene->view().image();
+    const transport::TileGrid& image = scene->loaded->view().image();
     spdlog::info(
         "scene_opened name={} width={} height={} face_resolution={} bytes={} memory_bytes={}",
-        name, image.width, image.height, scene->scene->face_resolution(), bytes,
-        scene->scene->bytes());
+        name, image.width, image.height, scene->loaded->face_resolution(), bytes,
+        scene->loaded->bytes());
     const std::lock_guard lock(mutex_);
     scenes_[name].swap(scene);  // the former one, if it was the last hold, ends after the lock
 }
@@ -134,7 +134,7 @@ std::string SceneLibrary::expected_in_place_of(std::string_view name) const {
 std::uint64_t SceneLibrary::total_bytes() const {
     std::uint64_t bytes = 0;
     for (const auto& scene : list()) {
-        bytes += scene->scene->transport().total_bytes();
+        bytes += scene->loaded->transport().total_bytes();
     }
     return bytes;
 }

@@ -24,7 +24,7 @@ namespace relume::net {
 struct ServedScene {
     std::string name;
     std::filesystem::path directory;
-    std::shared_ptr<const served::Scene> scene;
+    std::shared_ptr<const served::Scene> loaded;
     SkyPixels sky;
 
     // What clients are told of it.

@@ -6,7 +6,9 @@
 
 namespace relume::net {
 
-Document::Document(std::shared_ptr<Environment> environment) {
+Document::Document(const wire::SceneSummary& scene, std::shared_ptr<Environment> environment)
+    : edits_(scene.edits) {
+    state_.image = {.width = scene.width, .height = scene.height};
     state_.environment.name = environment->description().name;
     environments_.environment = std::move(environment);
 }
@@ -21,6 +23,7 @@ DocumentChange Document::edit(ViewerId author,
                           .author = author,
                           .edit_id = edit.id,
                           .stages = {}};
+    wire::require_kept(state_, next, edits_);
     change.stages = wire::stages_of(change.patch);
     environments_ = environments_after(environments_, next, change.patch, library);
     state_ = std::move(next);

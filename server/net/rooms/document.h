@@ -4,6 +4,7 @@
 #include "protocol/wire/limits.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
+#include "protocol/wire/scene_summary.h"
 #include "server/net/rooms/named_environments.h"
 #include "server/net/rooms/stages.h"
 #include "server/net/rooms/viewer.h"
@@ -14,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace relume::net {
 
@@ -29,8 +31,8 @@ struct DocumentChange {
 // Not thread-safe.
 class Document {
   public:
-    // Revision 0 is the default state under this environment.
-    explicit Document(std::shared_ptr<Environment> environment);
+    // Revision 0 is the default state of a room of `scene` under this environment.
+    Document(const wire::SceneSummary& scene, std::shared_ptr<Environment> environment);
 
     // Throws wire::WireError naming what in the patch cannot be; the document is then as
     // before.
@@ -54,6 +56,7 @@ class Document {
   private:
     void advance(const DocumentChange& change);
 
+    const std::vector<std::string> edits_;  // the sections that take them
     wire::RoomState state_;
     NamedEnvironments environments_;
     std::uint64_t revision_ = 0;

@@ -75,8 +75,8 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
                      Clock::duration ceiling)
     : scene_(std::move(scene)),
       metrics_(metrics),
-      session_(scene_->scene->workspace(), relighting::Strategy{}),
-      composer_(std::make_shared<FrameComposer>(scene_->scene->view(), scene_->sky)),
+      session_(scene_->loaded->workspace(), relighting::Strategy{}),
+      composer_(std::make_shared<FrameComposer>(scene_->loaded->view(), scene_->sky)),
       budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
@@ -113,14 +113,14 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
 bool Relighter::set_light(const wire::RoomState& state,
                           const NamedEnvironments& environments,
                           std::vector<wire::ErrorMessage>& problems) {
-    const std::uint32_t n = scene_->scene->face_resolution();
+    const std::uint32_t n = scene_->loaded->face_resolution();
     light::LightRig rig = rig_from_state(state, environments, n, problems);
     if (state_ && rig == rig_) {
         return false;
     }
     rig_ = std::move(rig);
     light::evaluate(rig_, n, cubemap_);
-    light::lighting_coefficients(cubemap_, scene_->scene->projection(), coefficients_);
+    light::lighting_coefficients(cubemap_, scene_->loaded->projection(), coefficients_);
     session_.set_target(coefficients_);
     pixels_changed();
     return true;

@@ -232,24 +232,20 @@ class HttpConnection {
     }
 
     // Never returns; is cancelled when the answer is there. One who has ended its side waits
-    // for no answer.
+    // for no answer. What comes before the end belongs to the next request; of one who sends
+    // more than the buffer takes the end is not seen.
     asio::awaitable<void> stop_when_the_client_ends(std::stop_source& stop) {
-        auto& socket = stream_.socket();
-        char byte = 0;
         beast::error_code ended;
-        // A wait may end with nothing to read: to ask then must not hold the thread.
-        socket.non_blocking(true, ended);
-        do {
-            auto [error] = co_await socket.async_wait(asio::socket_base::wait_read, kNoThrow);
-            ended = {};
-            if (!error) {
-                socket.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, ended);
-            }
-        } while (ended == asio::error::would_block);
+        while (!ended && buffer_.size() < buffer_.max_size()) {
+            auto [error, bytes] = co_await stream_.async_read_some(
+                buffer_.prepare(buffer_.max_size() - buffer_.size()), kNoThrow);
+            buffer_.commit(bytes);
+            ended = error;
+        }
         if (ended) {
             stop.request_stop();
         }
-        asio::steady_timer forever(socket.get_executor(), Clock::time_point::max());
+        asio::steady_timer forever(stream_.get_executor(), Clock::time_point::max());
         co_await forever.async_wait(kNoThrow);
     }
 

@@ -13,6 +13,12 @@ using nlohmann::json;
 constexpr ViewerId kAnna{1};
 constexpr ViewerId kBert{2};
 
+const wire::SceneSummary kScene{.name = "scene",
+                                .width = 96,
+                                .height = 64,
+                                .edits = {"environment", "rotation", "background", "strategy",
+                                          "budget", "display"}};
+
 light::EnvironmentMap constant_map(float value) {
     return {{16, 8, std::vector<float>(std::size_t{3} * 16 * 8, value)},
             light::Projection::lat_long};
@@ -22,7 +28,7 @@ class DocumentTest : public testing::Test {
   protected:
     DocumentTest() {
         library_.add_upload("map", constant_map(1));
-        document_.emplace(library_.find("map"));
+        document_.emplace(kScene, library_.find("map"));
     }
     DocumentChange edit(ViewerId author, const json& patch, std::uint64_t id = 1) {
         return document_->edit(author, {.id = id, .patch = patch}, {}, library_);
@@ -44,6 +50,25 @@ TEST_F(DocumentTest, EachChangeSaysWhoMadeItAndWhatItTouches) {
     EXPECT_EQ(second.stages, wire::Stages(wire::Stage::display));
     EXPECT_EQ(document_->state().environment.gain, 2);
     EXPECT_EQ(document_->state().display.exposure_stops, 1);
+}
+
+TEST_F(DocumentTest, SectionsThatTheSceneDoesNotLetPeopleEditKeepTheirValues) {
+    EXPECT_EQ(document_->state().image, (wire::ImageSize{.width = 96, .height = 64}));
+    edit(kAnna, {{"image", {{"width", 96}}}, {"environment", {{"gain", 2}}}});
+    EXPECT_EQ(document_->state().environment.gain, 2);
+    const wire::RoomState before = document_->state();
+    for (const json& patch : {json{{"environment", {{"gain", 3}}}, {"image", {{"width", 97}}}},
+                              json{{"blend", {{"amount", 0.5}}}}}) {
+        try {
+            edit(kAnna, patch);
+            ADD_FAILURE() << patch << " was taken";
+        } catch (const wire::WireError& refusal) {
+            EXPECT_EQ(refusal.code(), wire::ErrorCode::unsupported);
+            EXPECT_EQ(refusal.path(), patch.contains("image") ? "/image" : "/blend");
+        }
+    }
+    EXPECT_EQ(document_->state(), before);
+    EXPECT_EQ(document_->revision(), 1U);
 }
 
 TEST_F(DocumentTest, OnlySignalAndViewChangePixels) {

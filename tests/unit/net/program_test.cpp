@@ -226,17 +226,26 @@ TEST_F(ProgramTest, ADecodeEndsWithItsClient) {
     all.insert(all.end(), {"--decoder", RELUME_MISBEHAVING_DECODER});
     Process server(all, log());
     const std::uint16_t port = wait_until_ready();
-    {
-        RawSocket client(port);
-        client.send(
-            "POST /api/environments?name=m HTTP/1.1\r\nHost: localhost\r\n"
-            "Content-Length: 4\r\n\r\nhang");
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // so that it has begun
+    const std::string next_request = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    for (const auto& [name, sent_meanwhile] :
+         {std::pair("silent", std::string()), std::pair("eager", next_request)}) {
+        {
+            RawSocket client(port);
+            client.send(
+                "POST /api/environments?name=" + std::string(name) +
+                " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n\r\nhang");
+            client.send(sent_meanwhile);
+            // So that it has begun.
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        }
+        const std::string refused = "upload_refused name=" + std::string(name);
+        EXPECT_TRUE(eventually(
+            [&] { return text_of(log()).find(refused) != std::string::npos; }));
+        const std::string lines = text_of(log());
+        EXPECT_NE(lines.find("nobody waits for the answer", lines.find(refused)),
+                  std::string::npos)
+            << lines;
     }
-    EXPECT_TRUE(eventually(
-        [&] { return text_of(log()).find("upload_refused name=m") != std::string::npos; }));
-    EXPECT_NE(text_of(log()).find("nobody waits for the answer"), std::string::npos)
-        << text_of(log());
     server.signal(SIGTERM);
     EXPECT_EQ(server.wait(), 0);
 }

@@ -64,6 +64,26 @@ TEST_F(UploadTest, EveryOneOfManyUploadsIsAnswered) {
     }
 }
 
+TEST_F(UploadTest, WhatComesDuringADecodeIsTheNextRequest) {
+    start();
+    const std::string file = hdr_file(8, 4);
+    const std::string host = " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) + "\r\n";
+    const std::string next = "GET /healthz" + host + "Connection: close\r\n\r\n";
+    for (std::size_t sent_early = 0; sent_early <= next.size(); sent_early += 9) {
+        RawSocket socket(port());
+        socket.send("POST /api/environments?name=u" + host +
+                    "Content-Length: " + std::to_string(file.size()) + "\r\n\r\n" + file);
+        // While the file is being decoded, as far as one can tell from outside.
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        socket.send(next.substr(0, sent_early));
+        std::string answers = socket.receive_until("\r\n\r\n");
+        socket.send(next.substr(sent_early));
+        answers += socket.receive_all();
+        ASSERT_TRUE(answers.starts_with("HTTP/1.1 201 ")) << answers;
+        ASSERT_NE(answers.find("HTTP/1.1 200 "), std::string::npos) << sent_early << answers;
+    }
+}
+
 TEST_F(UploadTest, BadUploadsGetNamedErrors) {
     configuration_.limits.upload_bytes = 100'000;
     start();
