@@ -13,11 +13,11 @@ using nlohmann::json;
 constexpr ViewerId kAnna{1};
 constexpr ViewerId kBert{2};
 
-const wire::SceneSummary kScene{.name = "scene",
-                                .width = 96,
-                                .height = 64,
-                                .edits = {"environment", "rotation", "background", "strategy",
-                                          "budget", "display"}};
+const wire::SceneSummary kScene{
+    .name = "scene",
+    .width = 96,
+    .height = 64,
+    .edits = {"environment", "rotation", "background", "strategy", "budget", "display"}};
 
 light::EnvironmentMap constant_map(float value) {
     return {{16, 8, std::vector<float>(std::size_t{3} * 16 * 8, value)},

@@ -1,7 +1,11 @@
 #include "tests/unit/net/hdr_file.h"
 
+#include "tests/support/scratch_directory.h"
+
 #include <OpenImageIO/imageio.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -14,6 +18,14 @@ void write_hdr(const std::filesystem::path& path, int width, int height, float r
         !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
         throw std::runtime_error("cannot write " + path.string());
     }
+}
+
+std::string hdr_file(int width, int height) {
+    const test::ScratchDirectory folder;
+    const std::filesystem::path path = folder.path() / "upload.hdr";
+    write_hdr(path, width, height, 0.5F);
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace relume::net

@@ -231,16 +231,15 @@ TEST_F(ProgramTest, ADecodeEndsWithItsClient) {
          {std::pair("silent", std::string()), std::pair("eager", next_request)}) {
         {
             RawSocket client(port);
-            client.send(
-                "POST /api/environments?name=" + std::string(name) +
-                " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n\r\nhang");
+            client.send("POST /api/environments?name=" + std::string(name) +
+                        " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n\r\nhang");
             client.send(sent_meanwhile);
             // So that it has begun.
             std::this_thread::sleep_for(std::chrono::milliseconds(200));
         }
         const std::string refused = "upload_refused name=" + std::string(name);
-        EXPECT_TRUE(eventually(
-            [&] { return text_of(log()).find(refused) != std::string::npos; }));
+        EXPECT_TRUE(
+            eventually([&] { return text_of(log()).find(refused) != std::string::npos; }));
         const std::string lines = text_of(log());
         EXPECT_NE(lines.find("nobody waits for the answer", lines.find(refused)),
                   std::string::npos)

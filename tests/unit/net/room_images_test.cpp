@@ -27,7 +27,7 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
     EXPECT_EQ(frame->header.relative_error, 0);
     EXPECT_EQ(frame->header.coefficients_remaining, 0U);
 
-    const transport::Transport& transport = scenes_.find("tiny")->scene->transport();
+    const transport::Transport& transport = scenes_.find("tiny")->loaded->transport();
     const transport::TileGrid& image = transport.manifest().image();
     const std::uint32_t n = transport.manifest().signal_basis.face_resolution();
     light::LightRig rig;
@@ -37,7 +37,7 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
     light::LightCubemap cubemap;
     light::evaluate(rig, n, cubemap);
     std::vector<float> lighting;
-    light::lighting_coefficients(cubemap, scenes_.find("tiny")->scene->projection(), lighting);
+    light::lighting_coefficients(cubemap, scenes_.find("tiny")->loaded->projection(), lighting);
     std::vector<double> sums = test::dense_product(transport, lighting);
     test::receivers_from_sums(sums);
 

@@ -7,9 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 
@@ -17,16 +14,9 @@ namespace relume::net {
 namespace {
 
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 class UploadTest : public RunningServer {
   protected:
-    std::string hdr_file(int width = 32, int height = 16) {
-        const fs::path path = scenes_.path() / "upload.hdr";
-        write_hdr(path, width, height, 0.5F);
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
     HttpAnswer upload(const std::string& query, const std::string& body) {
         return http(port(), "POST", "/api/environments" + query, {}, body);
     }

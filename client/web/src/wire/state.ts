@@ -75,6 +75,14 @@ export interface BackgroundState {
     colour: Triple;
 }
 
+/** How large the image is. */
+export interface ImageState {
+    /** Pixels in a row. */
+    width: number;
+    /** Rows. */
+    height: number;
+}
+
 /** How changed coefficients reach the image. */
 export interface StrategyState {
     /** What becomes of the approximation when the light changes. */
@@ -107,6 +115,7 @@ export interface RoomState {
     rotation: RotationState;
     lights: { [id: string]: AreaLight };
     background: BackgroundState;
+    image: ImageState;
     strategy: StrategyState;
     budget: BudgetState;
     display: DisplayState;
@@ -121,6 +130,7 @@ export const kStages: { readonly [section in keyof RoomState]: Stage } = {
     rotation: "signal",
     lights: "signal",
     background: "view",
+    image: "view",
     strategy: "policy",
     budget: "policy",
     display: "display",
@@ -151,6 +161,10 @@ export const kRanges = {
     },
     background: {
         colour: { lowest: 0, highest: 1e4 },
+    },
+    image: {
+        width: { lowest: 1, highest: 16384 },
+        height: { lowest: 1, highest: 16384 },
     },
     budget: {
         milliseconds: { lowest: 0.1, highest: 1000 },
