@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/transport/cell.h"
-#include "protocol/transport/mapped_file.h"
+#include "protocol/transport/file_bytes.h"
 #include "protocol/transport/shard_header.h"
 
 #include <array>
@@ -54,7 +54,7 @@ class ShardReader {
     void check_index(std::string_view file) const;
     void check_segments(std::string_view file) const;
 
-    MappedFile file_;
+    FileBytes file_;
     ShardHeader header_;
     std::span<const std::uint32_t> index_;
     std::span<const std::uint8_t> data_;

@@ -56,9 +56,9 @@ class TableReader {
     std::string name_;
 };
 
-MappedFile open_table(const std::filesystem::path& directory, const FileRecord& record) {
+FileBytes open_table(const std::filesystem::path& directory, const FileRecord& record) {
     const std::filesystem::path path = directory / record.file;
-    MappedFile file(path);
+    FileBytes file(path);
     if (file.bytes().size() != record.bytes) {
         throw TransportError(fmt::format("{}: {} bytes, expected {}", path.string(),
                                          file.bytes().size(), record.bytes));

@@ -1,8 +1,8 @@
 // A transport directory opened for reading: everything an engine needs, checked and immutable.
 #pragma once
 
+#include "protocol/transport/file_bytes.h"
 #include "protocol/transport/manifest.h"
-#include "protocol/transport/mapped_file.h"
 #include "protocol/transport/shard_reader.h"
 #include "protocol/transport/sketch.h"
 
@@ -62,7 +62,7 @@ class Transport {
 
     std::filesystem::path directory_;
     Manifest manifest_;
-    std::vector<MappedFile> tables_;
+    std::vector<FileBytes> tables_;
     std::vector<ShardReader> shards_;
     std::span<const float> steps_;
     std::span<const float> energies_;

@@ -22,14 +22,14 @@ void add_colour(const Sketch& sketch,
                 std::span<Float> sums) {
     thread_local std::vector<WeightedRow> rows;
     rows.resize(std::max(rows.size(), count));
-    std::size_t lit = 0;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t column = column_at(i);
         const float weight = amount_of(i) * sketch.scale(column, colour);
-        rows[lit] = {.first = sketch.first_value(column, colour), .weight = weight};
-        lit += weight != 0 ? 1 : 0;
+        rows[count] = {.first = sketch.first_value(column, colour), .weight = weight};
+        count += weight != 0 ? 1 : 0;
     }
-    add_rows(sketch.table(), std::span(rows).first(lit), sums);
+    add_rows(sketch.table(), std::span(rows).first(count), sums);
 }
 
 template <typename Float>
@@ -65,13 +65,14 @@ BandSketches::BandSketches(const ColumnTable& table, const Sketch& sketch)
       bands_(table.band_count() * size_),
       partial_(table.band_chunks().size() * size_) {}
 
-void BandSketches::set(const SignificantColumns& lit) {
+void BandSketches::set(const SignificantColumns& significant) {
     const std::span<const BandChunk> chunks = table_->band_chunks();
     const std::size_t rows = sketch_->rows();
     std::fill(partial_.begin(), partial_.end(), 0.0F);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
         for (std::uint32_t c = 0; c < kColours; ++c) {
-            const std::span<const SignificantColumns::Column> columns = lit.of(chunk, c);
+            const std::span<const SignificantColumns::Column> columns =
+                significant.of(chunk, c);
             add_colour(
                 *sketch_, c, columns.size(), [&](std::size_t i) { return columns[i].column; },
                 [&](std::size_t i) { return columns[i].amount; },

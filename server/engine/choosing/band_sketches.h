@@ -19,7 +19,7 @@ class BandSketches {
 
     // Makes the sketch of these columns from nothing, in one pass that is spread over the
     // caller's arena. The result does not depend on the number of threads.
-    void set(const SignificantColumns& lit);
+    void set(const SignificantColumns& significant);
     // Follows a change of the signal: the plan has been carried out on it.
     void apply(const Plan& plan);
 

@@ -22,10 +22,10 @@ Guard::Guard(const ColumnTable& table)
       last_target_(target_.size()) {}
 
 const Plan& Guard::decide(const SignalState& signal,
-                          const SignificantColumns& lit,
+                          const SignificantColumns& significant,
                           Ranking& ranking,
                           const SelectionBudget& budget) {
-    const bool rests = set_target(lit);
+    const bool rests = set_target(significant);
     if (!approximation_known_) {
         shown_.set(signal.approximation());
         approximation_.set(shown_);
@@ -48,11 +48,11 @@ const Plan& Guard::decide(const SignalState& signal,
     return candidates_[best_].plan;
 }
 
-bool Guard::set_target(const SignificantColumns& lit) {
+bool Guard::set_target(const SignificantColumns& significant) {
     for (std::size_t r = 0; r < target_.size(); ++r) {
         last_target_[r] = target_.sum(r);
     }
-    target_.set(lit);
+    target_.set(significant);
     for (std::size_t r = 0; r < target_.size(); ++r) {
         if (target_.sum(r) != last_target_[r]) {
             return false;

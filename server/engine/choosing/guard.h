@@ -38,11 +38,11 @@ class Guard {
 
     explicit Guard(const ColumnTable& table);
 
-    // The best plan, valid until the next call. `ranking` is of this signal, and `lit` has the
-    // columns of its target that count. Of equal predictions the first wins, increments before
-    // resets.
+    // The best plan, valid until the next call. `ranking` is of this signal, and `significant`
+    // has the columns of its target that count. Of equal predictions the first wins, increments
+    // before resets.
     [[nodiscard]] const Plan& decide(const SignalState& signal,
-                                     const SignificantColumns& lit,
+                                     const SignificantColumns& significant,
                                      Ranking& ranking,
                                      const SelectionBudget& budget);
     // What the last decision weighed; the first candidate resets no band. A candidate that
@@ -64,7 +64,7 @@ class Guard {
   private:
     void propose(std::uint32_t bands_to_reset);
     // True when nothing has changed for the image since the last decision.
-    [[nodiscard]] bool set_target(const SignificantColumns& lit);
+    [[nodiscard]] bool set_target(const SignificantColumns& significant);
     void search_nearby(const SignalState& signal,
                        const Ranking& ranking,
                        const SelectionBudget& budget);

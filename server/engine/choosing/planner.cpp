@@ -3,12 +3,12 @@
 namespace relume::engine {
 
 const Plan& Planner::begin(const SignalState& signal,
-                           const SignificantColumns& lit,
+                           const SignificantColumns& significant,
                            const relighting::Strategy& strategy,
                            const SelectionBudget& budget) {
     ranking_.rank(*table_, signal, table_->weights(strategy.priority));
     if (strategy.method == relighting::Method::guarded) {
-        return guard_.decide(signal, lit, ranking_, budget);
+        return guard_.decide(signal, significant, ranking_, budget);
     }
     guard_.forget();
     plan_.bands_to_reset = 0;

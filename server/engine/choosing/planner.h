@@ -17,10 +17,10 @@ class Planner {
     explicit Planner(const ColumnTable& table) : table_(&table), guard_(table) {}
 
     // The plan for the first image of a new signal: the method's resets, then the most
-    // important differences. `lit` has the columns of the target that count. Valid until the
-    // next call.
+    // important differences. `significant` has the columns of the target that count. Valid
+    // until the next call.
     [[nodiscard]] const Plan& begin(const SignalState& signal,
-                                    const SignificantColumns& lit,
+                                    const SignificantColumns& significant,
                                     const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
     // The plan for a further image of the same signal: the most important of the differences

@@ -25,7 +25,7 @@ void Ranking::rank(const ColumnTable& table,
         Summary& band = bands_[chunks[i].band];
         band.from_nothing += chunks_[i].from_nothing;
         band.as_shown += chunks_[i].as_shown;
-        band.lit += chunks_[i].lit;
+        band.wanted += chunks_[i].wanted;
         band.differing += chunks_[i].differing;
     }
     bands_nearer_from_nothing_ = 0;
@@ -53,22 +53,22 @@ Ranking::Summary Ranking::rank_chunk(const ColumnTable& table,
         const std::size_t column = table.by_band()[place];
         float shown = 0;
         float nothing = 0;
-        bool lit = false;
+        bool is_wanted = false;
         bool differs = false;
         for (std::size_t c = 0; c < kColours; ++c) {
             const std::size_t i = c * count + column;
             const float wanted = target[i];
             const float difference = wanted - approximation[i];
-            lit = lit || wanted != 0;
+            is_wanted = is_wanted || wanted != 0;
             differs = differs || wanted != approximation[i];
             nothing += weights[i] * wanted * (weights[i] * wanted);
             shown += weights[i] * difference * (weights[i] * difference);
             summary.from_nothing += double{std::abs(wanted)};
             summary.as_shown += double{std::abs(difference)};
         }
-        from_nothing_[place] = lit ? finite(nothing) : kNoDifference;
+        from_nothing_[place] = is_wanted ? finite(nothing) : kNoDifference;
         as_shown_[place] = differs ? finite(shown) : kNoDifference;
-        summary.lit += lit ? 1 : 0;
+        summary.wanted += is_wanted ? 1 : 0;
         summary.differing += differs ? 1 : 0;
     }
     return summary;
@@ -78,7 +78,7 @@ std::uint32_t Ranking::differing_columns(std::uint32_t bands_to_reset) const {
     std::uint32_t columns = 0;
     for (std::size_t band = 0; band < bands_.size(); ++band) {
         const bool reset = ((bands_to_reset >> band) & 1U) != 0;
-        columns += reset ? bands_[band].lit : bands_[band].differing;
+        columns += reset ? bands_[band].wanted : bands_[band].differing;
     }
     return columns;
 }

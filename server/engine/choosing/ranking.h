@@ -51,7 +51,7 @@ class Ranking {
     struct Summary {
         double from_nothing = 0;
         double as_shown = 0;
-        std::uint32_t lit = 0;
+        std::uint32_t wanted = 0;
         std::uint32_t differing = 0;
     };
 

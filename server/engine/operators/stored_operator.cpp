@@ -33,7 +33,7 @@ TransportOperator::BlockRun StoredOperator::run(std::size_t number) const {
 
 void StoredOperator::add(std::size_t run,
                          std::span<const ColumnChange> changes,
-                         const RunTargets& targets) const {
+                         const RunSums& targets) const {
     const std::uint32_t blocks = transport_->shards()[run].block_count();
     thread_local std::vector<WeightedSegment> segments;
     gather_segments(*transport_, run, changes, segments);

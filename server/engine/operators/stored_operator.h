@@ -28,7 +28,7 @@ class StoredOperator final : public TransportOperator {
     [[nodiscard]] BlockRun run(std::size_t number) const override;
     void add(std::size_t run,
              std::span<const ColumnChange> changes,
-             const RunTargets& targets) const override;
+             const RunSums& targets) const override;
     void set_weights(std::span<const float> signal, Weights& weights) const override;
     void multiply(std::uint32_t block,
                   std::uint32_t band,

@@ -44,7 +44,7 @@ class TransportOperator {
     // Where a run's changes are added: two sets of sums, [count][3][256] each, which do not
     // overlap. `total` may be null. Where `occupied` is not null it is set to a mask: bit b
     // says that anything was added to block b of the run.
-    struct RunTargets {
+    struct RunSums {
         float* sums = nullptr;
         float* total = nullptr;
         std::uint64_t* occupied = nullptr;
@@ -52,7 +52,7 @@ class TransportOperator {
     // Adds T_j·(to − from) of every change to `sums` and to `total`.
     virtual void add(std::size_t run,
                      std::span<const ColumnChange> changes,
-                     const RunTargets& targets) const = 0;
+                     const RunSums& targets) const = 0;
 
     // A whole signal in the form that this operator's `multiply` takes. Length and order are
     // the operator's own affair.

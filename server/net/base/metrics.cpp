@@ -162,9 +162,9 @@ void Metrics::add_clients(int difference) {
 void Metrics::add_connections(int difference) {
     families_->connections.Increment(difference);
 }
-void Metrics::set_scenes(std::size_t count, std::uint64_t bytes_mapped) {
+void Metrics::set_scenes(std::size_t count, std::uint64_t bytes) {
     families_->scenes.Set(static_cast<double>(count));
-    families_->scene_bytes.Set(static_cast<double>(bytes_mapped));
+    families_->scene_bytes.Set(static_cast<double>(bytes));
 }
 void Metrics::set_environment_bytes(std::size_t bytes) {
     families_->environment_bytes.Set(static_cast<double>(bytes));

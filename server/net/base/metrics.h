@@ -42,7 +42,7 @@ class Metrics {
     void set_rooms(std::size_t count);
     void add_clients(int difference);
     void add_connections(int difference);
-    void set_scenes(std::size_t count, std::uint64_t bytes_mapped);
+    void set_scenes(std::size_t count, std::uint64_t bytes);
     void set_environment_bytes(std::size_t bytes);
     void set_dropped_log_lines(std::uint64_t count);
 

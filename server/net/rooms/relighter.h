@@ -63,7 +63,7 @@ class Relighter {
                                   int jpeg_quality);
     // The milliseconds that an image of this room spends outside this class: waiting for a
     // worker, and being encoded. The budget of later steps is smaller by them (StepBudget).
-    void set_beside(double milliseconds) { budget_.set_beside(milliseconds); }
+    void set_overhead(double milliseconds) { budget_.set_overhead(milliseconds); }
 
   private:
     // False when the light is what it was.

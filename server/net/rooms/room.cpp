@@ -169,7 +169,7 @@ void Room::run(std::span<const std::shared_ptr<WorkItem>> others) noexcept {
     };
     add(*this);
     for (const std::shared_ptr<WorkItem>& other : others) {
-        add(static_cast<Room&>(*other));  // who is of our company is a room of our scene
+        add(static_cast<Room&>(*other));  // items of our key are rooms of our scene
     }
     perform(slices);
     for (Running& running : slices) {
@@ -213,7 +213,7 @@ void Room::perform(std::span<Running> slices) {
         }
     }
     each_alone([](Running& running) {
-        running.room->look_who_is_ready(running.slice);
+        running.room->note_who_is_ready(running.slice);
         std::vector<wire::ErrorMessage> problems = std::move(running.result.problems);
         running.result = running.room->images_.end(running.slice);
         running.result.problems = std::move(problems);
@@ -235,18 +235,18 @@ std::optional<RoomSlice> Room::begin_slice() {
     }
     slice.revision = taken_revision_;
     slice.settled_image_due = !settled_image_is_current_locked();
-    slice.standing = settled_image_;
-    look_who_is_ready_locked(slice);
+    slice.earlier_settled = settled_image_;
+    note_who_is_ready_locked(slice);
     return slice;
 }
 
-void Room::look_who_is_ready(RoomSlice& slice) const {
+void Room::note_who_is_ready(RoomSlice& slice) const {
     const std::lock_guard lock(mutex_);
-    look_who_is_ready_locked(slice);
+    note_who_is_ready_locked(slice);
 }
 
 // Under one lock, for an image that an encoder has just handed over is in flight to a viewer.
-void Room::look_who_is_ready_locked(RoomSlice& slice) const {
+void Room::note_who_is_ready_locked(RoomSlice& slice) const {
     slice.encoder_is_free = !schedule_.is_encoding();
     slice.viewer_is_ready = audience_.wants_moving_image();
     slice.moving_forms = audience_.moving_forms();

@@ -84,7 +84,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     // When its last viewer left; nothing while there is one.
     [[nodiscard]] std::optional<Clock::time_point> empty_since() const;
 
-    [[nodiscard]] const void* company() const noexcept override { return scene_.get(); }
+    [[nodiscard]] const void* batch_key() const noexcept override { return scene_.get(); }
     void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override;
 
   private:
@@ -96,8 +96,8 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     [[nodiscard]] std::optional<RoomSlice> begin_slice();
     static void perform(std::span<Running> slices);
     // Brings into the slice whether the encoder is free and a viewer ready.
-    void look_who_is_ready(RoomSlice& slice) const;
-    void look_who_is_ready_locked(RoomSlice& slice) const;
+    void note_who_is_ready(RoomSlice& slice) const;
+    void note_who_is_ready_locked(RoomSlice& slice) const;
     void end_slice(const RoomSlice& slice, SliceResult result);
     void slice_failed(const std::string& reason);
     // `since`: when the picture was done.

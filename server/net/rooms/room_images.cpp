@@ -13,7 +13,7 @@ std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
     if (!relighter_) {
         relighter_ = std::make_unique<Relighter>(scene_, metrics_, options_.slice_ceiling);
     }
-    relighter_->set_beside(slice.order.beside_ms);
+    relighter_->set_overhead(slice.order.overhead_ms);
     if (!slice.order.takes_state) {
         return {};
     }
@@ -63,8 +63,8 @@ SliceResult RoomImages::end(const RoomSlice& slice) {
 
 void RoomImages::settle(const RoomSlice& slice, ImageStamp stamp, SliceResult& result) {
     stamp.settled = true;
-    if (slice.standing && settled_pixels_ == relighter_->pixels()) {
-        result.restamped = restamped(*slice.standing, stamp);
+    if (slice.earlier_settled && settled_pixels_ == relighter_->pixels()) {
+        result.restamped = restamped(*slice.earlier_settled, stamp);
     } else {
         result.picture = relighter_->picture(stamp, {.displays = {}, .half_planes = true}, 0);
         settled_pixels_ = relighter_->pixels();

@@ -18,7 +18,7 @@ class RoomPace {
     void encoding_took(Clock::duration time) { encoding_ms_.add(milliseconds(time)); }
 
     // What an image takes from edit to JPEG outside its slices: waiting for a worker, encoding.
-    [[nodiscard]] double beside_slice_ms() const {
+    [[nodiscard]] double overhead_ms() const {
         return waiting_ms_.mean() + encoding_ms_.mean();
     }
     // When a refinement should begin, so that the image of the next edit does not have to wait

@@ -22,7 +22,7 @@ struct RoomSlice {
     std::uint64_t revision = 0;  // of the state that is relit
     bool settled_image_due = false;
     // An earlier settled image. If nothing has been relit since, it shows this state as well.
-    SharedImageFrame standing;
+    SharedImageFrame earlier_settled;
     // Taken when the slice begins, and anew when a picture may be due:
     bool encoder_is_free = false;
     bool viewer_is_ready = false;  // for an image of an unsettled state
@@ -33,7 +33,7 @@ struct SliceResult {
     std::vector<wire::ErrorMessage> problems;
     SliceOutcome outcome;
     std::optional<Picture> picture;  // to be encoded
-    SharedImageFrame restamped;      // `standing` under this revision, to be sent again
+    SharedImageFrame restamped;      // `earlier_settled` under this revision, to be sent again
 };
 
 }  // namespace relume::net

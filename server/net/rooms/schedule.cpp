@@ -29,7 +29,7 @@ SliceOrder Schedule::begin_slice(Clock::time_point now) {
                      .first_image_due = false,
                      .edit_read_at = {},
                      .settle_at = last_change_ + settle_delay_,
-                     .beside_ms = pace_.beside_slice_ms()};
+                     .overhead_ms = pace_.overhead_ms()};
     if (order.takes_state) {
         order.stages = std::exchange(new_stages_, {});
         state_is_new_ = false;

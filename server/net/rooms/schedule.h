@@ -23,7 +23,7 @@ struct SliceOrder {
     Clock::time_point edit_read_at;  // of the edit that its image answers
     Clock::time_point settle_at;     // when the state has rested for long enough
     // The mean of what an image spends outside its slices: waiting for a worker, being encoded.
-    double beside_ms = 0;
+    double overhead_ms = 0;
 };
 
 // What came of it.

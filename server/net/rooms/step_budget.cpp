@@ -43,7 +43,7 @@ relighting::Budget StepBudget::for_step(const relighting::Budget& budget,
         // All of them are lit, composed and encoded on the same threads.
         const double rounds = std::max(
             1.0, static_cast<double>(images) / tbb::this_task_arena::max_concurrency());
-        const double taken = rounds * (compose_ms_.mean() + beside_ms_ +
+        const double taken = rounds * (compose_ms_.mean() + overhead_ms_ +
                                        (light_is_new_ ? lighting_ms_.mean() : 0));
         step.milliseconds =
             std::max(kLeastPart * *step.milliseconds, *step.milliseconds - taken);

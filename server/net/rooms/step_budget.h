@@ -20,7 +20,7 @@ class StepBudget {
     void composing_took(double milliseconds);
     // The milliseconds of an image that are neither lighting nor relighting nor composing:
     // waiting for a worker, being encoded.
-    void set_beside(double milliseconds) { beside_ms_ = milliseconds; }
+    void set_overhead(double milliseconds) { overhead_ms_ = milliseconds; }
 
     // A step of new light begins, which it took `lighting_ms` to make.
     void begin_step(double lighting_ms);
@@ -46,7 +46,7 @@ class StepBudget {
     const double ceiling_ms_;
     timing::RunningMean lighting_ms_;
     timing::RunningMean compose_ms_;
-    double beside_ms_ = 0;
+    double overhead_ms_ = 0;
     bool light_is_new_ = false;  // no slice of the step has run
     double spent_ms_ = 0;
     std::uint32_t spent_columns_ = 0;

@@ -20,8 +20,8 @@ void WorkAccount::charge(Clock::time_point begin,
     paid_until_ = std::min(std::max(paid_until_, begin) + whole, begin + taken + kLargestDebt);
 }
 
-WorkerPool::WorkerPool(std::size_t threads, LargestCompany largest_company)
-    : largest_company_(largest_company) {
+WorkerPool::WorkerPool(std::size_t threads, LargestBatch largest_batch)
+    : largest_batch_(largest_batch) {
     threads_.reserve(threads);
     for (std::size_t i = 0; i < threads; ++i) {
         threads_.emplace_back([this] { work(); });
@@ -119,13 +119,13 @@ std::vector<std::shared_ptr<WorkItem>> WorkerPool::next_locked() {
         return next;
     }
     const WorkPriority priority = queue_.front().priority;
-    const void* const company = queue_.front().item->company();
+    const void* const key = queue_.front().item->batch_key();
     const std::size_t largest =
-        priority == WorkPriority::edit ? largest_company_.edits : largest_company_.refinements;
+        priority == WorkPriority::edit ? largest_batch_.edits : largest_batch_.refinements;
     std::erase_if(queue_, [&](Waiting& waiting) {
-        const bool taken = next.empty() ||
-                           (next.size() < largest && company != nullptr &&
-                            waiting.priority == priority && waiting.item->company() == company);
+        const bool taken =
+            next.empty() || (next.size() < largest && key != nullptr &&
+                             waiting.priority == priority && waiting.item->batch_key() == key);
         if (taken) {
             next.push_back(std::move(waiting.item));
         }

@@ -34,11 +34,10 @@ class WorkItem {
     WorkItem& operator=(const WorkItem&) = delete;
     virtual ~WorkItem() = default;
 
-    // Items of one company may run together; equal pointers mean one company. An item that
-    // gives null runs alone.
-    [[nodiscard]] virtual const void* company() const noexcept { return nullptr; }
-    // Runs one slice, of this item and of `others`: members of its company that were waiting
-    // too, and have left the queue with it.
+    // Items of equal keys may run together, as one batch. An item whose key is null runs alone.
+    [[nodiscard]] virtual const void* batch_key() const noexcept { return nullptr; }
+    // Runs one slice, of this item and of `others`: items of its key that were waiting too, and
+    // have left the queue with it.
     virtual void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept = 0;
 
   private:
@@ -62,13 +61,12 @@ class WorkerPool {
     // A refinement waits no longer than this for the edits before it.
     static constexpr std::chrono::milliseconds kRefinementPatience{100};
 
-    // How many items of one company, all of one priority, are taken off the queue together at
-    // most.
-    struct LargestCompany {
+    // How many items of one key, all of one priority, are taken off the queue together at most.
+    struct LargestBatch {
         std::size_t edits = 1;
         std::size_t refinements = 1;
     };
-    WorkerPool(std::size_t threads, LargestCompany largest_company);
+    WorkerPool(std::size_t threads, LargestBatch largest_batch);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
     // As `stop`.
@@ -113,7 +111,7 @@ class WorkerPool {
     // The first of the queue, and who may go with it; nothing when it is empty.
     [[nodiscard]] std::vector<std::shared_ptr<WorkItem>> next_locked();
 
-    const LargestCompany largest_company_;
+    const LargestBatch largest_batch_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::vector<Waiting> queue_;  // by place; of equals the earlier queued first

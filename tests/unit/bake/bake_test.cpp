@@ -26,7 +26,7 @@ std::map<std::string, std::uint64_t> checked_files(const fs::path& directory) {
     for (const auto& entry : fs::recursive_directory_iterator(directory)) {
         const std::string name = fs::relative(entry.path(), directory);
         if (entry.is_regular_file() && !name.starts_with("view/")) {
-            files[name] = transport::checksum(transport::MappedFile(entry.path()).bytes());
+            files[name] = transport::checksum(transport::FileBytes(entry.path()).bytes());
         }
     }
     return files;

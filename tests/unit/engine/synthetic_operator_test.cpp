@@ -142,7 +142,7 @@ class SyntheticOperator final : private Tables, public TransportOperator {
     }
     void add(std::size_t run,
              std::span<const ColumnChange> changes,
-             const RunTargets& targets) const override {
+             const RunSums& targets) const override {
         for (const ColumnChange& change : changes) {
             for_each_value(static_cast<std::uint32_t>(run), change.column,
                            [&](std::size_t c, std::size_t place, float value) {

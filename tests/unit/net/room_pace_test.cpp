@@ -11,14 +11,14 @@ const Clock::time_point kBegin = Clock::time_point() + std::chrono::hours(1);
 
 TEST(RoomPace, LearnsWhatLiesBetweenAnEditAndItsImageBesideTheSlice) {
     RoomPace pace;
-    EXPECT_EQ(pace.beside_slice_ms(), 0);
+    EXPECT_EQ(pace.overhead_ms(), 0);
     for (int i = 0; i < 100; ++i) {
         pace.edit_waited(milliseconds(2));
         pace.encoding_took(milliseconds(5));
     }
-    EXPECT_NEAR(pace.beside_slice_ms(), 7, 1e-6);
+    EXPECT_NEAR(pace.overhead_ms(), 7, 1e-6);
     pace.edit_waited(milliseconds(1000));
-    EXPECT_LT(pace.beside_slice_ms(), 7 + 0.25 * 1000) << "one edit is no habit";
+    EXPECT_LT(pace.overhead_ms(), 7 + 0.25 * 1000) << "one edit is no habit";
 }
 
 TEST(RoomPace, RefinesOnlyWhatIsEncodedBeforeTheNextEdit) {

@@ -18,7 +18,7 @@ TEST(StepBudget, IsForTheWholeWayFromEditToPicture) {
         budget.begin_step(2);
         budget.composing_took(1);
     }
-    budget.set_beside(3);
+    budget.set_overhead(3);
     EXPECT_NEAR(budget.lighting_ms(), 2, 1e-6);
     EXPECT_NEAR(*budget.for_slice(of_milliseconds(20), 1).milliseconds, 20 - 2 - 1 - 3, 1e-6);
     budget.slice_took(4, 10);
@@ -28,7 +28,7 @@ TEST(StepBudget, IsForTheWholeWayFromEditToPicture) {
 
 TEST(StepBudget, RelightingKeepsAPartHoweverSlowTheRestIs) {
     StepBudget budget(16);
-    budget.set_beside(1000);
+    budget.set_overhead(1000);
     const double left = *budget.for_slice(of_milliseconds(10), 1).milliseconds;
     EXPECT_GT(left, 0);
     EXPECT_LT(left, 10);

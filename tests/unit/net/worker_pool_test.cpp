@@ -17,9 +17,9 @@ namespace {
 
 class Item : public WorkItem {
   public:
-    explicit Item(std::function<void()> work, const void* company = nullptr)
-        : work_(std::move(work)), company_(company) {}
-    [[nodiscard]] const void* company() const noexcept override { return company_; }
+    explicit Item(std::function<void()> work, const void* batch_key = nullptr)
+        : work_(std::move(work)), batch_key_(batch_key) {}
+    [[nodiscard]] const void* batch_key() const noexcept override { return batch_key_; }
     void run(std::span<const std::shared_ptr<WorkItem>> others) noexcept override {
         work_();
         for (const auto& other : others) {
@@ -29,11 +29,11 @@ class Item : public WorkItem {
 
   private:
     std::function<void()> work_;
-    const void* company_;
+    const void* batch_key_;
 };
 
-std::shared_ptr<WorkItem> item(std::function<void()> work, const void* company = nullptr) {
-    return std::make_shared<Item>(std::move(work), company);
+std::shared_ptr<WorkItem> item(std::function<void()> work, const void* batch_key = nullptr) {
+    return std::make_shared<Item>(std::move(work), batch_key);
 }
 
 // Holds the only worker until released, so that what is queued meanwhile waits.
@@ -56,13 +56,13 @@ class Gate {
 
 class Order {
   public:
-    std::shared_ptr<WorkItem> add(char name, const void* company = nullptr) {
+    std::shared_ptr<WorkItem> add(char name, const void* batch_key = nullptr) {
         return item(
             [this, name] {
                 const std::lock_guard lock(mutex_);
                 order_.push_back(name);
             },
-            company);
+            batch_key);
     }
     std::string text() {
         const std::lock_guard lock(mutex_);
@@ -132,9 +132,9 @@ TEST(WorkerPool, EditsDoNotStarveARefinement) {
     EXPECT_EQ(order.text(), "erlz");
 }
 
-// What waits behind others goes with its company, if of its priority, up to the largest
-// company of edits and of refinements.
-TEST(WorkerPool, ACompanyGoesTogether) {
+// What waits behind others goes with the items of its key, if of its priority, up to the
+// largest batch of edits and of refinements.
+TEST(WorkerPool, ItemsOfOneKeyGoTogether) {
     Order order;  // outlives what the pool still runs
     WorkerPool pool(1, {.edits = 3, .refinements = 2});
     Gate gate(pool);

@@ -11,15 +11,15 @@
 
 namespace relume::transport {
 
-class MappedFile {
+class FileBytes {
   public:
     // Throws TransportError when the file is missing, not a regular file or cannot be read.
-    explicit MappedFile(const std::filesystem::path& path);
-    MappedFile(MappedFile&& other) noexcept;
-    MappedFile& operator=(MappedFile&& other) noexcept;
-    MappedFile(const MappedFile&) = delete;
-    MappedFile& operator=(const MappedFile&) = delete;
-    ~MappedFile();
+    explicit FileBytes(const std::filesystem::path& path);
+    FileBytes(FileBytes&& other) noexcept;
+    FileBytes& operator=(FileBytes&& other) noexcept;
+    FileBytes(const FileBytes&) = delete;
+    FileBytes& operator=(const FileBytes&) = delete;
+    ~FileBytes();
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 

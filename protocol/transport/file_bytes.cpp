@@ -1,4 +1,4 @@
-#include "protocol/transport/mapped_file.h"
+#include "protocol/transport/file_bytes.h"
 
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
@@ -67,7 +67,7 @@ std::span<const std::byte> map_descriptor(const std::filesystem::path& path, int
 
 }  // namespace
 
-MappedFile::MappedFile(const std::filesystem::path& path) {
+FileBytes::FileBytes(const std::filesystem::path& path) {
     try {
         const files::Descriptor file = files::open_regular_file(path);
         bytes_ = map_descriptor(path, file.get());
@@ -76,14 +76,14 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     }
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+FileBytes::FileBytes(FileBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
     std::swap(bytes_, other.bytes_);
     return *this;
 }
 
-MappedFile::~MappedFile() {
+FileBytes::~FileBytes() {
     if (!bytes_.empty()) {
         ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
     }
