@@ -22,14 +22,14 @@ void add_colour(const Sketch& sketch,
                 std::span<Float> sums) {
     thread_local std::vector<WeightedRow> rows;
     rows.resize(std::max(rows.size(), count));
-    std::size_t count = 0;
+    std::size_t used = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t column = column_at(i);
         const float weight = amount_of(i) * sketch.scale(column, colour);
-        rows[count] = {.first = sketch.first_value(column, colour), .weight = weight};
-        count += weight != 0 ? 1 : 0;
+        rows[used] = {.first = sketch.first_value(column, colour), .weight = weight};
+        used += weight != 0 ? 1 : 0;
     }
-    add_rows(sketch.table(), std::span(rows).first(count), sums);
+    add_rows(sketch.table(), std::span(rows).first(used), sums);
 }
 
 template <typename Float>

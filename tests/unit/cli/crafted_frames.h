@@ -14,13 +14,15 @@ inline constexpr std::uint32_t kTinyWidth = 6;
 inline constexpr std::uint32_t kTinyHeight = 4;
 
 inline std::string tiny_snapshot(std::uint64_t revision = 5) {
+    wire::RoomState state;
+    state.image = {.width = kTinyWidth, .height = kTinyHeight};
     return wire::text_from_message(wire::Snapshot{.room = "r",
                                                   .scene = {.name = "tiny",
                                                             .width = kTinyWidth,
                                                             .height = kTinyHeight,
                                                             .face_resolution = 8},
                                                   .revision = revision,
-                                                  .state = {},
+                                                  .state = state,
                                                   .viewers = 1,
                                                   .limits = {}});
 }

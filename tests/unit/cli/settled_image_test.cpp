@@ -142,7 +142,7 @@ TEST(SettledImages, WhatIsNoFrameOfTheProtocolFailsByName) {
         const char* part;
     };
     for (const Case& c : {Case{wrong_magic, "magic"}, Case{cut, "payload_bytes"},
-                          Case{broken_payload, "payload"}, Case{other_size, "the scene's"}}) {
+                          Case{broken_payload, "payload"}, Case{other_size, "the room's"}}) {
         LoopbackServer server([&](LoopbackPeer& peer) {
             peer.send_text(tiny_snapshot());
             answer_edit(peer, 6);

@@ -2,6 +2,7 @@
 // answered as it says, and the server knows no fault that it does not name.
 #include "tests/unit/net/raw_socket.h"
 #include "tests/unit/net/running_server.h"
+#include "tests/unit/net/websocket_client.h"
 
 #include <nlohmann/json.hpp>
 
@@ -72,7 +73,7 @@ class StatusCodes : public RunningServer {
              [this] {
                  return upload("?name=m", hdr_file(), "Origin: http://evil.example\r\n");
              }},
-            {{404, "not_found"}, [this] { return http(port(), "GET", "/none"); }},
+            {{404, "not_found"}, [this] { return http(port(), "GET", "/api/none"); }},
             {{404, "not_found"},
              [this] { return http(port(), "GET", "/api/scenes/none/thumbnail.png"); }},
             {{404, "not_found"},
@@ -137,9 +138,15 @@ class StatusCodes : public RunningServer {
              }},
             {{507, "too_many"},
              [this] {
-                 configuration_.limits.uploads = 1;
+                 configuration_.environment_bounds.uploads = 1;
                  start();
                  EXPECT_EQ(upload("?name=m", hdr_file(8, 4)).status, 201U);
+                 // One that lights a room makes no place for another.
+                 WebSocketClient client(port(), "/session/r?scene=tiny");
+                 client.send(nlohmann::json{{"type", "edit"},
+                                            {"id", 1},
+                                            {"patch", {{"environment", {{"name", "m"}}}}}});
+                 static_cast<void>(client.receive_message("change"));
                  return upload("?name=n", hdr_file(8, 4));
              }},
         };
@@ -160,7 +167,10 @@ class StatusCodes : public RunningServer {
 TEST_F(StatusCodes, EveryFaultIsAnsweredAsTheContractSays) {
     std::set<StatusAndCode> tried;
     configuration_.limits.upload_bytes = 8192;
-    std::ofstream(environments_.path() / "broken.hdr") << "#?RADIANCE\nno map\n";
+    // Of a size that is known, and without its second half.
+    const std::string whole = hdr_file();
+    std::ofstream(environments_.path() / "broken.hdr", std::ios::binary)
+        << whole.substr(0, whole.size() / 2);
     const Configuration plain = configuration_;
     start();
     for (const auto& [expected, fault] : faults_of_requests()) {
