@@ -3,6 +3,7 @@
 #include "protocol/basis/cubemap.h"
 #include "server/light/low_pass.h"
 #include "server/light/padded_cubemap.h"
+#include "server/light/sharpening.h"
 #include "server/light/source_splat.h"
 
 #include <fmt/core.h>
@@ -41,7 +42,8 @@ float kernel_radius_from(std::uint32_t m) {
 }  // namespace
 
 PrefilteredEnvironment::PrefilteredEnvironment(std::shared_ptr<const EnvironmentMap> source,
-                                               std::uint32_t face_resolution)
+                                               std::uint32_t face_resolution,
+                                               float sharpening)
     : source_(std::move(source)),
       face_resolution_(face_resolution),
       inner_resolution_(inner_resolution_from(face_resolution)) {
@@ -60,6 +62,9 @@ PrefilteredEnvironment::PrefilteredEnvironment(std::shared_ptr<const Environment
                 }
             }
         });
+    if (sharpening > 0) {
+        sharpen(padded, m, kInnerPerOuter, sharpening);
+    }
     padded.fill_borders();
 }
 

@@ -11,16 +11,20 @@
 
 namespace relume::light {
 
-// For lighting cubemaps of one resolution n. Holds a cubemap of side m = 4n, slightly
-// low-passed (README.md says why), every face with a border of one texel taken from its
-// neighbours so that bilinear lookups run across edges. 1.2 kB per n², which is 4.8 MB for n
-// = 64. Immutable once made; any number of threads may read it.
+// For lighting cubemaps of one resolution n. Holds a cubemap of side m = 4n,
+// low-passed and sharpened (README.md says why), every face with a border of one texel taken
+// from its neighbours so that bilinear lookups run across edges. 1.2 kB per n², which is 4.8 MB
+// for n = 64. Immutable once made; any number of threads may read it.
 class PrefilteredEnvironment {
   public:
+    // protocol/light.md's; any other is there to be measured.
+    static constexpr float kSharpening = 0.16F;
+
     // Takes tens to hundreds of milliseconds, on all cores TBB has.
     // Throws std::invalid_argument unless basis::is_face_resolution(face_resolution).
     PrefilteredEnvironment(std::shared_ptr<const EnvironmentMap> source,
-                           std::uint32_t face_resolution);
+                           std::uint32_t face_resolution,
+                           float sharpening = kSharpening);
 
     [[nodiscard]] const EnvironmentMap& source() const { return *source_; }
     [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }

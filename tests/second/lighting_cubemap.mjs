@@ -85,6 +85,39 @@ function lowPass(bins, m) {
     return inner;
 }
 
+/** Texels a period apart give the brighter of two some of what the darker one has. */
+function sharpened(inner, m) {
+    const omega = Float64Array.from({ length: 6 * m * m }, (_, t) =>
+        solidAngle(t % m, Math.floor(t / m) % m, m));
+    const pairs = [];
+    for (let t = 0; t < 6 * m * m; ++t) {
+        const [face, row, column] = [Math.floor(t / (m * m)), Math.floor(t / m) % m, t % m];
+        for (const [across, down] of [[-4, 0], [4, 0], [0, -4], [0, 4]]) {
+            const [u, v] = [middle(column + across, m), middle(row + down, m)];
+            const [other, x, y] = placeOnCube(pointOnFace(face, u, v));
+            const [i, j] = [x, y].map((w) => Math.floor(((w + 1) * m) / 2));
+            pairs.push([t, (other * m + j) * m + i]);
+        }
+    }
+    const result = new Float64Array(inner.length);
+    for (let c = 0; c < 3; ++c) {
+        const fluxes = pairs.map(([t, s]) =>
+            ((0.16 / 2) * (omega[t] + omega[s]) * (inner[3 * t + c] - inner[3 * s + c])) / 2);
+        const asked = new Float64Array(6 * m * m);
+        const giverOf = (k) => pairs[k][fluxes[k] > 0 ? 1 : 0];
+        fluxes.forEach((flux, k) => (asked[giverOf(k)] += Math.abs(flux)));
+        const energy = omega.map((w, t) => w * inner[3 * t + c]);
+        const part = energy.map((held, t) => (asked[t] > held ? held / asked[t] : 1));
+        fluxes.forEach((flux, k) => {
+            const given = flux * part[giverOf(k)];
+            energy[pairs[k][0]] += given;
+            energy[pairs[k][1]] -= given;
+        });
+        energy.forEach((e, t) => (result[3 * t + c] = Math.max(0, e / omega[t])));
+    }
+    return result;
+}
+
 /** Every face with a border of one texel: six arrays of (m+2)² colours. */
 function bordered(inner, m) {
     const side = m + 2;
@@ -122,7 +155,7 @@ function bordered(inner, m) {
 /** Of a map's levels: what is made once for every n. */
 export function innerCubemap(levels, n) {
     const m = 4 * n;
-    return { m, faces: bordered(lowPass(splat(levels, m), m), m) };
+    return { m, faces: bordered(sharpened(lowPass(splat(levels, m), m), m), m) };
 }
 
 function lookup({ m, faces }, d) {

@@ -9,7 +9,9 @@
 
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace relume::lab {
@@ -17,34 +19,89 @@ namespace {
 
 struct Options {
     std::vector<std::string> scenes{"table", "thin", "bowl"};
-    std::vector<std::string> environments{"studio", "sunset", "city", "sky-afternoon"};
+    std::vector<std::string> environments{"studio", "sunset", "city", "night", "bare-sun"};
     std::vector<std::uint32_t> face_resolutions{16, 32, 64};
+    std::vector<float> other_sharpenings{0};
+    bool is_walk = false;
     LightFilterOptions measure;
 };
 
-std::string text_of(const LightFilterError::Distance& distance) {
-    return distance.value < distance.least ? fmt::format("below {:.2f} %", 100 * distance.least)
-                                           : fmt::format("{:.2f} %", 100 * distance.value);
+std::string text_of(const Measured& measured) {
+    return measured.value < measured.least ? fmt::format("below {:.2f} %", 100 * measured.least)
+                                           : fmt::format("{:.2f} %", 100 * measured.value);
+}
+
+std::string text_of(const LightWalk& walk) {
+    return fmt::format("{}, {:.2f} %", text_of(walk.flicker), 100 * walk.energy_range);
+}
+
+// Of one n: as it is served, sharpened otherwise, and the mean of each texel.
+std::vector<TexelLightSource> sources_of(const std::string& map,
+                                         std::uint32_t n,
+                                         const Options& options) {
+    std::vector<TexelLightSource> sources{{n, load_environment(map, n)}};
+    for (const float sharpening : options.other_sharpenings) {
+        sources.push_back({n, load_environment(map, n, sharpening)});
+    }
+    sources.push_back({n, nullptr});
+    return sources;
+}
+
+template <typename Value>
+void print_row(const std::string& scene,
+               const std::string& map,
+               std::uint32_t n,
+               std::span<const Value> values) {
+    fmt::print("| {} | {} | {} |", scene, map, n);
+    for (const Value& value : values) {
+        fmt::print(" {} |", text_of(value));
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+}
+
+void print_scene(const std::string& name, const std::string& map, const Options& options) {
+    const scene::Scene scene = scene::build_builtin_scene(name);
+    std::vector<TexelLightSource> all;
+    for (const std::uint32_t n : options.face_resolutions) {
+        for (TexelLightSource& source : sources_of(map, n, options)) {
+            all.push_back(std::move(source));
+        }
+    }
+    const light::EnvironmentMap& source_map = all.front().environment->source();
+    const std::size_t in_row = all.size() / options.face_resolutions.size();
+    std::vector<Measured> distances;
+    if (!options.is_walk) {
+        distances = light_filter_distances(scene, source_map, all, options.measure);
+    }
+    for (std::size_t i = 0; i < options.face_resolutions.size(); ++i) {
+        const std::uint32_t n = options.face_resolutions[i];
+        if (options.is_walk) {
+            const auto of_row = std::span(std::as_const(all)).subspan(i * in_row, in_row);
+            const auto walks = light_walks(scene, source_map, of_row, options.measure);
+            print_row<LightWalk>(name, map, n, walks);
+        } else {
+            print_row<Measured>(name, map, n, std::span(distances).subspan(i * in_row, in_row));
+        }
+    }
 }
 
 // As Markdown, so that it can stand in a README.
 int run(const Options& options) {
     catch_interruption();
-    fmt::print(
-        "| scene | light | n | as filtered | mean of each texel |\n|---|---|---|---|---|\n");
-    for (const std::string& scene_name : options.scenes) {
-        const scene::Scene scene = scene::build_builtin_scene(scene_name);
-        for (const std::string& name : options.environments) {
-            for (const std::uint32_t n : options.face_resolutions) {
-                if (is_interrupted()) {
-                    return kInterrupted;
-                }
-                const LightFilterError error =
-                    light_filter_error(scene, *load_environment(name, n), options.measure);
-                fmt::print("| {} | {} | {} | {} | {} |\n", scene_name, name, n,
-                           text_of(error.filtered), text_of(error.texel_means));
-                std::fflush(stdout);
+    std::string heading = "| scene | light | n | as filtered |";
+    std::string rule = "|---|---|---|---|";
+    for (const float sharpening : options.other_sharpenings) {
+        heading += fmt::format(" sharpened by {} |", sharpening);
+        rule += "---|";
+    }
+    fmt::print("{} mean of each texel |\n{}---|\n", heading, rule);
+    for (const std::string& map : options.environments) {
+        for (const std::string& scene : options.scenes) {
+            if (is_interrupted()) {
+                return kInterrupted;
             }
+            print_scene(scene, map, options);
         }
     }
     return 0;
@@ -66,11 +123,18 @@ Command add_light_filter_command(CLI::App& program) {
     command->add_option("--light-resolutions", options->face_resolutions, "n")
         ->delimiter(',')
         ->capture_default_str();
+    command
+        ->add_option("--sharpenings", options->other_sharpenings,
+                     "beside the one that is served")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_flag("--walk", options->is_walk,
+                      "turns by tenths of a texel instead: flicker, and how energy varies");
     command->add_option("--size", options->measure.image_side, "pixels a side")
         ->capture_default_str();
     command->add_option("--samples", options->measure.samples, "paths a pixel, twice")
         ->capture_default_str();
-    command->add_option("--turns", options->measure.turns, "random rotations")
+    command->add_option("--turns", options->measure.turns, "about the vertical")
         ->capture_default_str();
     return {command, [options] { return run(*options); }};
 }

@@ -51,9 +51,10 @@ light::EnvironmentMap load_map(const std::string& name_or_file) {
 }  // namespace
 
 std::shared_ptr<const light::PrefilteredEnvironment> load_environment(
-    const std::string& name_or_file, std::uint32_t face_resolution) {
+    const std::string& name_or_file, std::uint32_t face_resolution, float sharpening) {
     return std::make_shared<const light::PrefilteredEnvironment>(
-        std::make_shared<const light::EnvironmentMap>(load_map(name_or_file)), face_resolution);
+        std::make_shared<const light::EnvironmentMap>(load_map(name_or_file)), face_resolution,
+        sharpening);
 }
 
 }  // namespace relume::lab

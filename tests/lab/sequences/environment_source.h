@@ -13,6 +13,8 @@ namespace relume::lab {
 // procedural environment of server/light ("sky-afternoon"), or "bare-sun": a sun of half a
 // degree radius and irradiance π over a sky of 0.01. Throws light::EnvironmentError.
 [[nodiscard]] std::shared_ptr<const light::PrefilteredEnvironment> load_environment(
-    const std::string& name_or_file, std::uint32_t face_resolution);
+    const std::string& name_or_file,
+    std::uint32_t face_resolution,
+    float sharpening = light::PrefilteredEnvironment::kSharpening);
 
 }  // namespace relume::lab

@@ -85,12 +85,6 @@ Sky Sky::from_function(std::uint32_t n, Radiance radiance) {
     return {n, std::move(radiance), std::move(importance)};
 }
 
-Sky Sky::with_radiance(Radiance radiance) const {
-    Sky other = *this;
-    other.radiance_ = std::move(radiance);
-    return other;
-}
-
 V3d Sky::radiance(const V3d& direction) const {
     return radiance_(direction);
 }
@@ -107,7 +101,6 @@ SkySample Sky::sampled(Random& random) const {
         {texel.face, static_cast<float>(u), static_cast<float>(v)});
     SkySample sample;
     sample.direction = V3d(point).normalized();
-    sample.radiance = radiance_(sample.direction);
     sample.density = density(sample.direction);
     return sample;
 }

@@ -14,7 +14,6 @@ namespace relume::reference {
 
 struct SkySample {
     Imath::V3d direction{0, 1, 0};
-    Imath::V3d radiance{0, 0, 0};
     double density = 0;  // per steradian
 };
 
@@ -26,10 +25,6 @@ class Sky {
     [[nodiscard]] static Sky from_cubemap(std::uint32_t n, std::span<const Imath::V3f> rgb);
     // Any function, non-negative; `n` is the resolution of the table that guides the samples.
     [[nodiscard]] static Sky from_function(std::uint32_t n, Radiance radiance);
-
-    // Another light with the samples of this one: equal random numbers then give equal paths,
-    // and two images differ by what the lights differ alone.
-    [[nodiscard]] Sky with_radiance(Radiance radiance) const;
 
     [[nodiscard]] Imath::V3d radiance(const Imath::V3d& direction) const;
     [[nodiscard]] SkySample sampled(Random& random) const;

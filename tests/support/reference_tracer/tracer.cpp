@@ -20,14 +20,16 @@ double power_heuristic(double mine, double other) {
     return m2 / (m2 + other * other);
 }
 
-// The light that leaves the first surface along the ray, over all its scattering orders.
-V3d traced_radiance(const Geometry& geometry,
-                    const Sky& sky,
-                    std::uint32_t bounces,
-                    V3d origin,
-                    V3d direction,
-                    Random& random) {
-    V3d radiance(0, 0, 0);
+// Follows a path; arrive(direction, weight) is told what of the sky reaches its start, over all
+// scattering orders.
+template <typename Arrive>
+void follow_path(const Geometry& geometry,
+                 const Sky& sky,
+                 std::uint32_t bounces,
+                 V3d origin,
+                 V3d direction,
+                 Random& random,
+                 Arrive&& arrive) {
     V3d throughput(1, 1, 1);
     for (std::uint32_t vertex = 0; vertex <= bounces; ++vertex) {
         const auto surface = geometry.surface(origin, direction);
@@ -48,7 +50,7 @@ V3d traced_radiance(const Geometry& geometry,
                               light.direction)) {
             const double weight =
                 power_heuristic(light.density, reflection.density(light.direction, wo));
-            radiance += throughput * from_light * light.radiance * (weight / light.density);
+            arrive(light.direction, throughput * from_light * (weight / light.density));
         }
 
         const V3d wi = reflection.sampled(wo, random);
@@ -61,21 +63,45 @@ V3d traced_radiance(const Geometry& geometry,
         direction = wi;
         if (geometry.sees_sky(origin, direction)) {
             const double weight = power_heuristic(density, sky.density(direction));
-            radiance += throughput * sky.radiance(direction) * weight;
+            arrive(direction, throughput * weight);
             break;
         }
     }
-    return radiance;
+}
+
+// Calls pixel_paths(pixel, follow) for every pixel, in parallel; follow(arrive) follows one
+// more of its paths.
+template <typename PixelPaths>
+void for_each_pixel(const scene::Scene& scene,
+                    const Sky& sky,
+                    const TraceOptions& options,
+                    PixelPaths&& pixel_paths) {
+    const Geometry geometry(scene);
+    const scene::Camera camera(scene.camera, options.width, options.height);
+    const std::size_t pixels = std::size_t{options.width} * options.height;
+    tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
+        Random random(options.seed * 0x100000001b3U + pixel * 0x9e3779b1U + 17);
+        const auto x = static_cast<double>(pixel % options.width);
+        const auto y = static_cast<double>(pixel / options.width);
+        const bool is_box = options.filter == PixelFilter::box;
+        pixel_paths(pixel, [&](auto&& arrive) {
+            const double dx = is_box ? random.uniform() : 0.5;
+            const double dy = is_box ? random.uniform() : 0.5;
+            const Imath::V3f direction = camera.direction_from_pixel(
+                static_cast<float>(x + dx), static_cast<float>(y + dy));
+            follow_path(geometry, sky, options.bounces, V3d(camera.eye()),
+                        V3d(direction).normalized(), random, arrive);
+        });
+    });
 }
 
 }  // namespace
 
 TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions& options) {
-    const Geometry geometry(scene);
-    const scene::Camera camera(scene.camera, options.width, options.height);
     const std::size_t pixels = std::size_t{options.width} * options.height;
     TracedImage image{options.width, options.height, std::vector<V3d>(pixels),
                       std::vector<V3d>(pixels)};
+<<<<<<< HEAD
     tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
         Random random(options.seed * 0x100000001b3U + pixel * 0x9e3779b1U + 17);
         const auto x = static_cast<double>(pixel % options.width);
@@ -89,11 +115,39 @@ TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions&
                 static_cast<float>(x + dx), static_cast<float>(y + dy));
             radiance.add(traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
                                          V3d(direction).normalized(), random));
+=======
+    for_each_pixel(scene, sky, options, [&](std::size_t pixel, auto&& follow) {
+        V3d mean(0, 0, 0);
+        V3d scatter(0, 0, 0);  // Welford's sum of squared deviations
+        for (std::uint32_t i = 1; i <= options.samples; ++i) {
+            V3d value(0, 0, 0);
+            follow([&](const V3d& direction, const V3d& weight) {
+                value += weight * sky.radiance(direction);
+            });
+            const V3d step = value - mean;
+            mean += step / static_cast<double>(i);
+            scatter += step * (value - mean);
+>>>>>>> 488b82e (wip)
         }
         image.mean[pixel] = radiance.mean();
         image.variance[pixel] = radiance.variance_of_mean();
     });
     return image;
+}
+
+void trace_arrivals(
+    const scene::Scene& scene,
+    const Sky& guide,
+    const TraceOptions& options,
+    const std::function<void(std::size_t pixel, const V3d& direction, const V3d& weight)>&
+        arrive) {
+    for_each_pixel(scene, guide, options, [&](std::size_t pixel, auto&& follow) {
+        for (std::uint32_t i = 0; i < options.samples; ++i) {
+            follow([&](const V3d& direction, const V3d& weight) {
+                arrive(pixel, direction, weight / static_cast<double>(options.samples));
+            });
+        }
+    });
 }
 
 }  // namespace relume::reference

@@ -6,7 +6,9 @@
 
 #include <Imath/ImathVec.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace relume::reference {
@@ -36,5 +38,16 @@ struct TracedImage {
 [[nodiscard]] TracedImage trace(const scene::Scene& scene,
                                 const Sky& sky,
                                 const TraceOptions& options);
+
+// What the paths of a pixel bring: radiance from `direction` adds `weight` times itself to the
+// pixel. The paths and their weights are those of trace() under `guide`, whose radiance is not
+// asked: one set of paths then shows any number of lights, and two images differ by what the
+// lights differ alone. `arrive` is called from several threads, for one pixel from one.
+void trace_arrivals(
+    const scene::Scene& scene,
+    const Sky& guide,
+    const TraceOptions& options,
+    const std::function<void(
+        std::size_t pixel, const Imath::V3d& direction, const Imath::V3d& weight)>& arrive);
 
 }  // namespace relume::reference
