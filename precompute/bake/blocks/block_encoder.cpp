@@ -11,9 +11,9 @@ namespace {
 using transport::kBlockSize;
 
 // Columns transposed at once: a cache line of every row.
-constexpr std::size_t kTileColumns = 16;
+constexpr std::size_t kGroupColumns = 16;
 using Cell = std::array<float, kBlockSize>;
-using ColumnTile = std::array<Cell, kTileColumns>;
+using ColumnGroup = std::array<Cell, kGroupColumns>;
 
 // Receivers without a row are not looked at: they get the mean of the others, which costs the
 // fewest coefficients.
@@ -21,20 +21,20 @@ void transpose(const BlockRows& rows,
                std::uint32_t channel,
                std::size_t first,
                std::size_t count,
-               ColumnTile& tile) {
-    std::array<float, kTileColumns> mean{};
+               ColumnGroup& group) {
+    std::array<float, kGroupColumns> mean{};
     const float share = 1 / static_cast<float>(std::max<std::size_t>(rows.present_count(), 1));
     for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
         if (const float* row = rows.row(slot, channel); row != nullptr) {
             for (std::size_t i = 0; i < count; ++i) {
-                tile[i][slot] = row[first + i];
+                group[i][slot] = row[first + i];
                 mean[i] += share * row[first + i];
             }
         }
     }
     for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
         for (std::size_t i = 0; rows.row(slot, channel) == nullptr && i < count; ++i) {
-            tile[i][slot] = mean[i];
+            group[i][slot] = mean[i];
         }
     }
 }
@@ -72,15 +72,15 @@ transport::EncodedBlock encode_block(const BlockRows& rows,
     const std::uint32_t channels = rows.channels();
     stored.rows.assign(stored.slots.size(), std::vector<float>(rows.columns() * channels));
     transport::EncodedBlock block(steps.size());
-    std::array<ColumnTile, transport::kMaxChannels> tiles;
-    for (std::size_t first = 0; first < rows.columns(); first += kTileColumns) {
-        const std::size_t count = std::min(kTileColumns, rows.columns() - first);
+    std::array<ColumnGroup, transport::kMaxChannels> groups;
+    for (std::size_t first = 0; first < rows.columns(); first += kGroupColumns) {
+        const std::size_t count = std::min(kGroupColumns, rows.columns() - first);
         for (std::uint32_t k = 0; k < channels; ++k) {
-            transpose(rows, k, first, count, tiles[k]);
+            transpose(rows, k, first, count, groups[k]);
         }
         for (std::size_t i = 0; i < count; ++i) {
             for (std::uint32_t k = 0; k < channels; ++k) {
-                Cell& values = tiles[k][i];
+                Cell& values = groups[k][i];
                 const float step = steps[(first + i) * channels + k];
                 transport::QuantisedCell quantised{};
                 if (!is_in_dead_zone(values, step)) {

@@ -24,7 +24,7 @@ struct ChannelRow {
 
 // The inverse of T(c, j) = tint(c) · Σ_k matrix(c, k) · channel(k, j).
 //
-// The tint is the colour of the pixel's response to white light; with three channels that of
+// The tint is the colour of the receiver's response to white light; with three channels that of
 // the direct part, which holds the fine detail: chroma then needs the few coarse coefficients
 // of interreflection alone.
 void split_colours(const transport::ColourModel& model,

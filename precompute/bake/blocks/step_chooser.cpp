@@ -42,8 +42,8 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t tiles)
-    : basis_(basis), tiles_(tiles) {
+StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t blocks)
+    : basis_(basis), blocks_(blocks) {
     const std::size_t count = basis.coefficient_count();
     std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());
     for (std::uint32_t j = 0; j < count; ++j) {
@@ -59,12 +59,12 @@ StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t tiles)
                  .weight = static_cast<double>(all) / static_cast<double>(kept)});
         }
     }
-    cells_.assign(columns_.size() * tiles_, Cell{});
+    cells_.assign(columns_.size() * blocks_, Cell{});
 }
 
-void StepChooser::set_row(std::size_t tile, std::uint32_t slot, std::span<const float> row) {
+void StepChooser::set_row(std::size_t block, std::uint32_t slot, std::span<const float> row) {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        cells_[i * tiles_ + tile][slot] = row[columns_[i].index];
+        cells_[i * blocks_ + block][slot] = row[columns_[i].index];
     }
 }
 
@@ -72,8 +72,8 @@ template <typename Error>
 StepChooser::SquaredErrors StepChooser::sum_over_cells(Error error_of) const {
     std::vector<double> errors(columns_.size());
     tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t i) {
-        for (std::size_t tile = 0; tile < tiles_; ++tile) {
-            errors[i] += error_of(i, cells_[i * tiles_ + tile]);
+        for (std::size_t block = 0; block < blocks_; ++block) {
+            errors[i] += error_of(i, cells_[i * blocks_ + block]);
         }
     });
     SquaredErrors total;
@@ -93,8 +93,8 @@ StepChooser::SquaredErrors StepChooser::column_range_errors(std::uint32_t bits) 
     const auto levels = static_cast<float>((1U << (bits - 1)) - 1);
     std::vector<float> steps(columns_.size(), 0.0F);
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        for (std::size_t tile = 0; tile < tiles_; ++tile) {
-            steps[i] = std::max(steps[i], largest(cells_[i * tiles_ + tile]) / levels);
+        for (std::size_t block = 0; block < blocks_; ++block) {
+            steps[i] = std::max(steps[i], largest(cells_[i * blocks_ + block]) / levels);
         }
     }
     return sum_over_cells([&](std::size_t i, const Cell& cell) {

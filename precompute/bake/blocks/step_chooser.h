@@ -1,11 +1,11 @@
-// How finely each column is to be quantised, from the rows of a few tiles.
+// How finely each column is to be quantised, from the rows of a few blocks.
 //
 // Steps grow with the band, step(band) = c·2^(β·octave), as the coefficients of natural light
 // fall with it: reverse water-filling spreads the expected error of the image evenly. c is set
 // so that under natural light the expected error equals that of [Ng03], which spends `bits`
-// bits on the range of each column, pixel by pixel. Natural light hardly weighs the fine bands,
-// and a bare sun lives in them: a largest step keeps the error of a lone lit texel at [Ng03]'s
-// too.
+// bits on the range of each column, receiver by receiver. Natural light hardly weighs the fine
+// bands, and a bare sun lives in them: a largest step keeps the error of a lone lit texel at
+// [Ng03]'s too.
 #pragma once
 
 #include "protocol/basis/cubemap_basis.h"
@@ -22,11 +22,11 @@ namespace relume::bake {
 class StepChooser {
   public:
     // Keeps some columns of every band.
-    StepChooser(const basis::CubemapBasis& basis, std::size_t tiles);
+    StepChooser(const basis::CubemapBasis& basis, std::size_t blocks);
 
     // The row of a receiver, N values; receivers never set are zero. Thread-safe for different
     // receivers.
-    void set_row(std::size_t tile, std::uint32_t slot, std::span<const float> row);
+    void set_row(std::size_t block, std::uint32_t slot, std::span<const float> row);
 
     // [N][K]. Transforms the rows to the blocks' basis: called once, when all are set.
     [[nodiscard]] std::vector<float> steps(std::uint32_t bits,
@@ -52,9 +52,9 @@ class StepChooser {
     [[nodiscard]] SquaredErrors errors(Step step) const;
 
     basis::CubemapBasis basis_;
-    std::size_t tiles_;
+    std::size_t blocks_;
     std::vector<Column> columns_;
-    std::vector<Cell> cells_;  // [columns][tiles]
+    std::vector<Cell> cells_;  // [columns][blocks]
 };
 
 }  // namespace relume::bake

@@ -42,7 +42,8 @@ class Visibility {
 
     // Writes open[place] in [0, 1] wherever wanted[place] ≠ 0; zero elsewhere. A texel at a
     // shadow edge gets the part `share`, in (0, 1], of the further rays, rounded up. `share` is
-    // that of the surface in its pixel: the less the surface fills, the less its error weighs.
+    // that of the surface in its receiver: the less the surface fills, the less its error
+    // weighs.
     void compute(const std::array<Imath::V3f, kPacketSize>& origins,
                  float share,
                  const JitterShift& shift,
