@@ -101,33 +101,14 @@ TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions&
     const std::size_t pixels = std::size_t{options.width} * options.height;
     TracedImage image{options.width, options.height, std::vector<V3d>(pixels),
                       std::vector<V3d>(pixels)};
-<<<<<<< HEAD
-    tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
-        Random random(options.seed * 0x100000001b3U + pixel * 0x9e3779b1U + 17);
-        const auto x = static_cast<double>(pixel % options.width);
-        const auto y = static_cast<double>(pixel / options.width);
+    for_each_pixel(scene, sky, options, [&](std::size_t pixel, auto&& follow) {
         test::SampleMoments<V3d> radiance(V3d(0, 0, 0));
         for (std::uint32_t i = 0; i < options.samples; ++i) {
-            const bool is_box = options.filter == PixelFilter::box;
-            const double dx = is_box ? random.uniform() : 0.5;
-            const double dy = is_box ? random.uniform() : 0.5;
-            const Imath::V3f direction = camera.direction_from_pixel(
-                static_cast<float>(x + dx), static_cast<float>(y + dy));
-            radiance.add(traced_radiance(geometry, sky, options.bounces, V3d(camera.eye()),
-                                         V3d(direction).normalized(), random));
-=======
-    for_each_pixel(scene, sky, options, [&](std::size_t pixel, auto&& follow) {
-        V3d mean(0, 0, 0);
-        V3d scatter(0, 0, 0);  // Welford's sum of squared deviations
-        for (std::uint32_t i = 1; i <= options.samples; ++i) {
             V3d value(0, 0, 0);
             follow([&](const V3d& direction, const V3d& weight) {
                 value += weight * sky.radiance(direction);
             });
-            const V3d step = value - mean;
-            mean += step / static_cast<double>(i);
-            scatter += step * (value - mean);
->>>>>>> 488b82e (wip)
+            radiance.add(value);
         }
         image.mean[pixel] = radiance.mean();
         image.variance[pixel] = radiance.variance_of_mean();
