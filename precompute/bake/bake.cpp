@@ -121,7 +121,6 @@ class Bake {
         {
             const AddedTime adding(summary_.pilot_seconds);
             quantisation_ = plan_quantisation(rows_, receivers, tracer_, parameters_);
-            manifest_.sampling_error = measure_sampling_error(caster_, receivers, parameters_);
         }
         manifest_.colour = quantisation_.colour;
         transport::TransportWriter writer(directory_, manifest_,
@@ -129,7 +128,7 @@ class Bake {
                                            .blocks_per_shard = receivers.blocks_per_shard()});
         const ShardNotesFolder notes(directory_, manifest_.fingerprint);
         summary_.shards = writer.plan().shard_count();
-        const ShardBaker shards(rows_, traced_, quantisation_);
+        const ShardBaker shards(rows_, traced_, quantisation_, parameters_.seed);
         for (std::uint32_t shard = 0; shard < summary_.shards; ++shard) {
             bake_shard(shard, shards, writer, notes);
         }
@@ -172,6 +171,7 @@ class Bake {
     void finish(transport::TransportWriter& writer, const ShardNotesFolder& notes) {
         transport::BakedTables tables{.steps = quantisation_.steps, .coverage = {}, .tint = {}};
         std::vector<BlockErrors> errors;
+        std::vector<BlockSample> samples;
         for (std::uint32_t shard = 0; shard < summary_.shards; ++shard) {
             const auto noted = notes.read(shard, writer.plan().blocks_in(shard));
             if (!noted) {
@@ -181,6 +181,7 @@ class Bake {
             }
             tables.tint.insert(tables.tint.end(), noted->tint.begin(), noted->tint.end());
             errors.insert(errors.end(), noted->errors.begin(), noted->errors.end());
+            samples.insert(samples.end(), noted->samples.begin(), noted->samples.end());
         }
         const std::vector<float> coverage = subject_->coverage();
         tables.coverage.assign(manifest_.layout.slot_count(), 0);
@@ -189,10 +190,20 @@ class Bake {
             tables.coverage[std::size_t{at.block} * transport::kBlockSize + at.slot] =
                 coverage[receiver];
         }
+        writer.state_sampling_error(sampling_error(samples));
         writer.finish(tables, {{"quantisation_error", json_from_errors(errors)},
                                {"chroma_residual", quantisation_.chroma_residual}});
         notes.remove();
         subject_->write_files(directory_);
+    }
+
+    [[nodiscard]] transport::SamplingError sampling_error(
+        std::span<const BlockSample> samples) const {
+        BakeParameters parameters = parameters_;
+        parameters.seed = other_seed(parameters_);
+        const ImageSubject other(caster_, parameters);
+        return measure_sampling_error(caster_, subject_->receivers(), other.receivers(),
+                                      parameters_, samples);
     }
 
     BakeParameters parameters_;

@@ -7,7 +7,7 @@
 namespace relume::bake {
 
 [[nodiscard]] constexpr std::string_view generator() {
-    return "relume-bake 0.4.0";
+    return "relume-bake 0.4.1";
 }
 
 }  // namespace relume::bake

@@ -49,6 +49,9 @@ class TransportWriter {
     // Thread-safe for different shards.
     void write_shard(std::uint32_t shard, const std::vector<EncodedBlock>& blocks) const;
 
+    // Replaces what the manifest says of it: it may be known only when all shards are baked.
+    void state_sampling_error(const SamplingError& error) { manifest_.sampling_error = error; }
+
     // Reads all shards back, sums column energies, bytes and the sketches from what is
     // *stored*, writes the tables and, last of all, the manifest with `measured` and cell
     // statistics added to it. Throws TransportError when a shard is missing.

@@ -1,7 +1,5 @@
 #include "precompute/bake/blocks/error_meter.h"
 
-#include "precompute/bake/blocks/light_model.h"
-
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -13,14 +11,6 @@ double relative(double error, double value) {
     return value > 0 ? std::sqrt(error / value) : 0.0;
 }
 
-double inner_product(std::span<const float> row, std::span<const float> light) {
-    double sum = 0;
-    for (std::size_t j = 0; j < row.size(); ++j) {
-        sum += double{row[j]} * double{light[j]};
-    }
-    return sum;
-}
-
 }  // namespace
 
 void ErrorSums::add(const ErrorSums& other) {
@@ -30,37 +20,17 @@ void ErrorSums::add(const ErrorSums& other) {
     gradient += other.gradient;
 }
 
-ErrorMeter::ErrorMeter(const basis::CubemapProjection& projection,
-                       const Quantisation& quantisation)
-    : quantisation_(quantisation) {
-    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights_.push_back(natural_light(projection.basis(), i));
-    }
-    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights_.push_back(sun_light(projection, i));
-    }
-}
-
-void ErrorMeter::measure_exact(const CoefficientRow& exact, LitReceiver& light) const {
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            light.exact[i][c] = inner_product(exact.rgb[c], lights_[i]);
-        }
-    }
-}
-
 void ErrorMeter::measure_stored(std::span<const float> stored,
                                 const Imath::V3f& tint,
                                 LitReceiver& light) const {
     const transport::ColourModel& colour = quantisation_.colour;
     const std::size_t columns = stored.size() / colour.channels;
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        for (std::size_t k = 0; k < colour.channels; ++k) {
-            const double value =
-                inner_product(stored.subspan(k * columns, columns), lights_[i]);
+    for (std::size_t k = 0; k < colour.channels; ++k) {
+        const auto values = lights_.products(stored.subspan(k * columns, columns));
+        for (std::size_t i = 0; i < kModelLights; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
                 light.stored[i][c] +=
-                    double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * value;
+                    double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * values[i];
             }
         }
     }
@@ -68,7 +38,7 @@ void ErrorMeter::measure_stored(std::span<const float> stored,
 
 BlockErrors ErrorMeter::errors(const BlockPatch& patch, std::span<const LitReceiver> lit) {
     BlockErrors sums;
-    for (std::size_t i = 0; i < kLightKinds * kLightsPerKind; ++i) {
+    for (std::size_t i = 0; i < kModelLights; ++i) {
         ErrorSums& sum = sums[i / kLightsPerKind];
         for (std::size_t c = 0; c < 3; ++c) {
             const auto error = [&](std::size_t p) {

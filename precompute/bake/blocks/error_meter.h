@@ -4,6 +4,7 @@
 #pragma once
 
 #include "precompute/bake/blocks/colour_split.h"
+#include "precompute/bake/blocks/model_lights.h"
 #include "precompute/bake/blocks/pilot.h"
 #include "precompute/bake/receivers/receivers.h"
 
@@ -26,21 +27,20 @@ struct ErrorSums {
     void add(const ErrorSums& other);
 };
 
-enum LightKind : std::uint8_t { kNatural, kSun, kLightKinds };
 using BlockErrors = std::array<ErrorSums, kLightKinds>;
 
 class ErrorMeter {
   public:
-    ErrorMeter(const basis::CubemapProjection& projection, const Quantisation& quantisation);
+    // Keeps references to both.
+    ErrorMeter(const ModelLights& lights, const Quantisation& quantisation)
+        : lights_(lights), quantisation_(quantisation) {}
 
-    static constexpr std::size_t kLightsPerKind = 4;
     // B and B̃ of a receiver under every light, in red, green and blue.
     struct LitReceiver {
-        std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> exact{};
-        std::array<std::array<double, 3>, kLightKinds * kLightsPerKind> stored{};
+        LitColours exact{};
+        LitColours stored{};
     };
-    void measure_exact(const CoefficientRow& exact, LitReceiver& light) const;
-    // `stored` is the receiver's row as stored, [K][N].
+    // `stored` is the receiver's row as stored, [K][N]. Fills light.stored.
     void measure_stored(std::span<const float> stored,
                         const Imath::V3f& tint,
                         LitReceiver& light) const;
@@ -50,8 +50,8 @@ class ErrorMeter {
                                             std::span<const LitReceiver> lit);
 
   private:
+    const ModelLights& lights_;
     const Quantisation& quantisation_;
-    std::vector<std::vector<float>> lights_;
 };
 
 // {"natural": {"relative_l2", "relative_h1"}, "sun": {…}}; h1 is of the gradient alone.

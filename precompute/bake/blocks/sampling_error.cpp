@@ -1,7 +1,5 @@
 #include "precompute/bake/blocks/sampling_error.h"
 
-#include "precompute/bake/blocks/light_model.h"
-#include "precompute/bake/blocks/sample_blocks.h"
 #include "precompute/bake/rows/light_texels.h"
 #include "precompute/bake/rows/path_pool.h"
 #include "precompute/bake/rows/row_baker.h"
@@ -14,193 +12,237 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
+#include <map>
 #include <utility>
 #include <vector>
 
 namespace relume::bake {
 namespace {
 
-constexpr SampleCount kBlocks{.every = 32, .least = 12, .most = 48};
+constexpr std::size_t kBlockDraws = 48;
+constexpr double kAnyone = 0.1;          // part of them
 constexpr std::uint32_t kMorePaths = 4;  // of a point, for no neighbours help
-constexpr std::size_t kLightsPerKind = 4;
-constexpr std::size_t kKinds = 2;  // natural, sun
-constexpr std::size_t kLights = kKinds * kLightsPerKind;
-// Colours of a receiver under every light.
-using LitColours = std::array<std::array<double, 3>, kLights>;
 
-std::vector<std::vector<float>> lights_for(const basis::CubemapProjection& projection) {
-    std::vector<std::vector<float>> lights;
-    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights.push_back(natural_light(projection.basis(), i));
-    }
-    for (std::uint64_t i = 0; i < kLightsPerKind; ++i) {
-        lights.push_back(sun_light(projection, i));
-    }
-    return lights;
+BakeParameters with_seed(BakeParameters parameters, std::uint64_t seed) {
+    parameters.seed = seed;
+    return parameters;
 }
-
-double inner_product(std::span<const float> row, std::span<const float> light) {
-    double sum = 0;
-    for (std::size_t j = 0; j < row.size(); ++j) {
-        sum += double{row[j]} * double{light[j]};
-    }
-    return sum;
-}
-
-LitColours lit_colours(const CoefficientRow& row,
-                       const std::vector<std::vector<float>>& lights) {
-    LitColours look;
-    for (std::size_t i = 0; i < kLights; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            look[i][c] = inner_product(row.rgb[c], lights[i]);
-        }
-    }
-    return look;
-}
-
-// What the bake shows.
-class BakedLooks {
-  public:
-    BakedLooks(const RayCaster& caster,
-               const Receivers& receivers,
-               const BakeParameters& parameters)
-        : receivers_(receivers),
-          parameters_(parameters),
-          texels_(parameters.face_resolution, parameters.seed),
-          tracer_(caster, parameters),
-          rows_(caster, texels_, parameters),
-          lights_(lights_for(rows_.projection())) {}
-
-    [[nodiscard]] std::vector<LitColours> look(std::uint32_t block) const {
-        TracedReceivers traced(receivers_, tracer_, parameters_);
-        (void)traced.move_to(block, 1);
-        const PathPool pool(traced);
-        std::vector<LitColours> looks;
-        CoefficientRow row;
-        RowBaker::Scratch scratch;
-        for (const std::size_t receiver : receivers_.spread_over_block(block)) {
-            LitColours& look = looks.emplace_back();
-            if (!traced.at(receiver).receiver.surfaces.empty()) {
-                rows_.bake(traced.at(receiver), &pool, row, scratch);
-                look = lit_colours(row, lights_);
-            }
-        }
-        return looks;
-    }
-
-  private:
-    const Receivers& receivers_;
-    BakeParameters parameters_;
-    LightTexels texels_;
-    PathTracer tracer_;
-    RowBaker rows_;
-    std::vector<std::vector<float>> lights_;
-};
 
 BakeParameters without_bias(BakeParameters parameters, std::uint64_t number) {
     parameters.samples *= kMorePaths;
     parameters.shrinkage = 0;
-    parameters.seed = transport::mix_bits(parameters.seed + 1 + number);
-    return parameters;
+    return with_seed(parameters, transport::mix_bits(parameters.seed + 1 + number));
 }
 
-// What it would show on average over many bakes that spare nothing: receivers are means over
-// points, each of which is lit by its own rays and paths alone.
-class UnbiasedLooks {
-  public:
-    UnbiasedLooks(const RayCaster& caster,
-                  const Receivers& receivers,
-                  const BakeParameters& parameters,
-                  std::uint64_t number)
-        : receivers_(receivers),
-          parameters_(without_bias(parameters, number)),
-          texels_(parameters_.face_resolution, parameters_.seed),
-          tracer_(caster, parameters_),
-          rows_(caster, texels_, parameters_),
-          lights_(lights_for(rows_.projection())) {}
+// Rows and paths of receivers by parameters of their own.
+struct RowSource {
+    RowSource(const RayCaster& caster, const BakeParameters& of)
+        : parameters(of),
+          texels(of.face_resolution, of.seed),
+          tracer(caster, parameters),
+          rows(caster, texels, parameters) {}
 
-    [[nodiscard]] std::vector<LitColours> look(std::uint32_t block) const {
-        std::vector<LitColours> looks;
+    BakeParameters parameters;
+    LightTexels texels;
+    PathTracer tracer;
+    RowBaker rows;
+};
+
+bool fills(const Receiver& receiver) {
+    constexpr float kWhole = 0.999F;  // of shares that are rounded
+    return receiver.surfaces.size() == 1 && receiver.surfaces.front().share > kWhole;
+}
+
+// Of one draw of a block: what its receivers are off by, over their probability in the block.
+struct DrawnError {
+    std::array<double, kLightKinds> noise{};
+    std::array<double, kLightKinds> bias{};
+};
+
+class Rebake {
+  public:
+    Rebake(const RayCaster& caster,
+           const Receivers& receivers,
+           const Receivers& other,
+           const BakeParameters& parameters)
+        : receivers_(receivers),
+          other_(other),
+          again_(caster, with_seed(parameters, other_seed(parameters))),
+          unbiased_{RowSource(caster, without_bias(parameters, 0)),
+                    RowSource(caster, without_bias(parameters, 1))},
+          lights_(again_.rows.projection()) {}
+
+    [[nodiscard]] DrawnError error(std::uint32_t block, const BlockSample& sample) const {
+        TracedReceivers traced(other_, again_.tracer, again_.parameters);
+        (void)traced.move_to(block, 1);
+        const PathPool pool(traced);
+        DrawnError error;
         CoefficientRow row;
         RowBaker::Scratch scratch;
-        for (const std::size_t receiver : receivers_.spread_over_block(block)) {
-            LitColours& sum = looks.emplace_back();
-            std::vector<Receiver> points = receivers_.points(receiver, parameters_.seed);
-            const auto count = static_cast<double>(points.size());
-            for (Receiver& point : points) {
-                if (point.surfaces.empty()) {
-                    continue;
-                }
-                rows_.bake(tracer_.trace(std::move(point)), nullptr, row, scratch);
-                const LitColours one = lit_colours(row, lights_);
-                for (std::size_t i = 0; i < kLights; ++i) {
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        sum[i][c] += one[i][c] / count;
-                    }
-                }
+        for (std::size_t draw = 0; draw < sample.drawn; ++draw) {
+            const SampledReceiver& drawn = sample.draws[draw];
+            const double weight =
+                1 / (drawn.probability * static_cast<double>(BlockSample::kDraws));
+            LitColours again{};
+            if (!traced.at(drawn.receiver).receiver.surfaces.empty()) {
+                again_.rows.bake(traced.at(drawn.receiver), &pool, row, scratch);
+                again = lights_.colours(row);
+            }
+            add(weight / 2, drawn.baked, again, drawn.baked, again, error.noise);
+            if (fills(receivers_.look(drawn.receiver))) {
+                add(weight, drawn.baked, mean_of_points(drawn.receiver, unbiased_[0]), again,
+                    mean_of_points(drawn.receiver, unbiased_[1]), error.bias);
             }
         }
-        return looks;
+        return error;
     }
 
   private:
-    const Receivers& receivers_;
-    BakeParameters parameters_;
-    LightTexels texels_;
-    PathTracer tracer_;
-    RowBaker rows_;
-    std::vector<std::vector<float>> lights_;
-};
-
-// Σ (B − U₁)·(B − U₂) and Σ U₁·U₂ of one kind of light.
-struct Sums {
-    double error = 0;
-    double energy = 0;
-
-    void add(const std::array<double, 3>& baked,
-             const std::array<double, 3>& first,
-             const std::array<double, 3>& second) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            error += (baked[c] - first[c]) * (baked[c] - second[c]);
-            energy += first[c] * second[c];
+    // weight · (a − b)·(c − d), by kind of light.
+    static void add(double weight,
+                    const LitColours& a,
+                    const LitColours& b,
+                    const LitColours& c,
+                    const LitColours& d,
+                    std::array<double, kLightKinds>& sums) {
+        for (std::size_t i = 0; i < kModelLights; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                sums[i / kLightsPerKind] += weight * (a[i][k] - b[i][k]) * (c[i][k] - d[i][k]);
+            }
         }
     }
-    [[nodiscard]] double relative() const {
-        return energy > 0 ? std::sqrt(std::max(error, 0.0) / energy) : 0;
+
+    [[nodiscard]] LitColours mean_of_points(std::size_t receiver, const RowSource& from) const {
+        LitColours mean{};
+        std::vector<Receiver> points = receivers_.points(receiver, from.parameters.seed);
+        CoefficientRow row;
+        RowBaker::Scratch scratch;
+        for (Receiver& point : points) {
+            if (point.surfaces.empty()) {
+                continue;
+            }
+            from.rows.bake(from.tracer.trace(std::move(point)), nullptr, row, scratch);
+            const LitColours one = lights_.colours(row);
+            for (std::size_t i = 0; i < kModelLights; ++i) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    mean[i][c] += one[i][c] / static_cast<double>(points.size());
+                }
+            }
+        }
+        return mean;
     }
+
+    const Receivers& receivers_;
+    const Receivers& other_;
+    RowSource again_;
+    std::array<RowSource, 2> unbiased_;
+    ModelLights lights_;
 };
+
+struct BlockDraw {
+    std::uint32_t block = 0;
+    double probability = 0;
+};
+
+// Both kinds of light count alike.
+std::vector<BlockDraw> draw_blocks(std::span<const BlockSample> blocks, std::uint64_t seed) {
+    std::array<double, kLightKinds> likely{};
+    double receivers = 0;
+    for (const BlockSample& block : blocks) {
+        receivers += block.receiver_count;
+        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+            likely[kind] += block.kinds[kind].likely;
+        }
+    }
+    std::vector<BlockDraw> draws;
+    if (receivers == 0) {
+        return draws;
+    }
+    const double offset = double{transport::unit_float(transport::mix_bits(seed))};
+    double cumulative = 0;
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        const double uniform = blocks[i].receiver_count / receivers;
+        double probability = kAnyone * uniform;
+        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+            probability +=
+                (1 - kAnyone) / static_cast<double>(kLightKinds) *
+                (likely[kind] > 0 ? blocks[i].kinds[kind].likely / likely[kind] : uniform);
+        }
+        cumulative += probability;
+        while (draws.size() < kBlockDraws &&
+               (static_cast<double>(draws.size()) + offset) / static_cast<double>(kBlockDraws) <
+                   cumulative) {
+            draws.push_back({.block = i, .probability = probability});
+        }
+    }
+    return draws;
+}
+
+// The mean of several estimates of one sum, and its standard error.
+struct Estimate {
+    double mean = 0;
+    double deviation = 0;
+};
+
+template <typename ValueOf>
+Estimate estimate(std::size_t count, ValueOf value_of) {
+    const auto n = static_cast<double>(count);
+    Estimate result;
+    for (std::size_t i = 0; i < count; ++i) {
+        result.mean += value_of(i) / n;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        result.deviation += std::pow(value_of(i) - result.mean, 2);
+    }
+    result.deviation = std::sqrt(result.deviation / (n * std::max(1.0, n - 1)));
+    return result;
+}
 
 }  // namespace
 
+std::uint64_t other_seed(const BakeParameters& parameters) {
+    return transport::mix_bits(parameters.seed + 3);
+}
+
 transport::SamplingError measure_sampling_error(const RayCaster& caster,
                                                 const Receivers& receivers,
-                                                const BakeParameters& parameters) {
-    const BakedLooks baked(caster, receivers, parameters);
-    const UnbiasedLooks first(caster, receivers, parameters, 0);
-    const UnbiasedLooks second(caster, receivers, parameters, 1);
-    const std::vector<std::uint32_t> blocks =
-        sample_blocks(receivers, kBlocks, parameters.seed);
-    std::vector<std::array<Sums, kKinds>> sums(blocks.size());
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-        const std::vector<LitColours> own = baked.look(blocks[i]);
-        const std::vector<LitColours> one = first.look(blocks[i]);
-        const std::vector<LitColours> other = second.look(blocks[i]);
-        for (std::size_t p = 0; p < own.size(); ++p) {
-            for (std::size_t light = 0; light < kLights; ++light) {
-                sums[i][light / kLightsPerKind].add(own[p][light], one[p][light],
-                                                    other[p][light]);
-            }
-        }
-    });
-    std::array<Sums, kKinds> total;
-    for (const std::array<Sums, kKinds>& block : sums) {
-        for (std::size_t kind = 0; kind < kKinds; ++kind) {
-            total[kind].error += block[kind].error;
-            total[kind].energy += block[kind].energy;
-        }
+                                                const Receivers& other,
+                                                const BakeParameters& parameters,
+                                                std::span<const BlockSample> blocks) {
+    const std::vector<BlockDraw> draws = draw_blocks(blocks, parameters.seed);
+    std::map<std::uint32_t, DrawnError> errors;
+    for (const BlockDraw& draw : draws) {
+        errors.try_emplace(draw.block);
     }
-    return {.natural = total[0].relative(), .sun = total[1].relative()};
+    std::vector<std::pair<const std::uint32_t, DrawnError>*> looked_at;
+    for (auto& entry : errors) {
+        looked_at.push_back(&entry);
+    }
+    const Rebake rebake(caster, receivers, other, parameters);
+    tbb::parallel_for(std::size_t{0}, looked_at.size(), [&](std::size_t i) {
+        auto& [block, error] = *looked_at[i];
+        error = rebake.error(block, blocks[block]);
+    });
+    const auto relative = [&](LightKind kind) {
+        double energy = 0;
+        for (const BlockSample& block : blocks) {
+            energy += block.kinds[kind].energy;
+        }
+        if (draws.empty() || !(energy > 0)) {
+            return 0.0;
+        }
+        const auto of_draw = [&](std::size_t i) -> const DrawnError& {
+            return errors.at(draws[i].block);
+        };
+        const Estimate noise = estimate(draws.size(), [&](std::size_t i) {
+            return of_draw(i).noise[kind] / draws[i].probability;
+        });
+        const Estimate bias = estimate(draws.size(), [&](std::size_t i) {
+            return of_draw(i).bias[kind] / draws[i].probability;
+        });
+        return std::sqrt((noise.mean + std::max(0.0, bias.mean) + noise.deviation) / energy);
+    };
+    return {.natural = relative(kNatural), .sun = relative(kSun)};
 }
 
 }  // namespace relume::bake

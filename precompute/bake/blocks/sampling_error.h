@@ -3,24 +3,40 @@
 #pragma once
 
 #include "precompute/bake/base/parameters.h"
+#include "precompute/bake/blocks/block_sample.h"
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
 
+#include <span>
+
 namespace relume::bake {
 
-// Bakes some receivers of some blocks as the bake itself does (B), and twice, with seeds of
-// their own, without anything that trades bias for noise (U): every receiver the mean over
-// points of it (Receivers::points), no paths of neighbours, no shrinkage. Two independent U
-// make the squared error free of their own noise:
+// Of a bake that is done, from what it shows (B) of some receivers of some blocks, which were
+// drawn where the image is likely to be off, each with a known probability p. They are baked
+// once more with another seed (B′), and, where one surface fills the receiver, twice without
+// anything that trades bias for noise (U₁, U₂): means over points, without paths of neighbours
+// or shrinkage. B − B′ is the noise of two bakes, and two independent differences show what
+// they share, free of noise:
 //
-//     relative L2 = √( Σ (B − U₁)·(B − U₂) ) / √( Σ U₁·U₂ )
+//     e² = Σ (B − B′)²/2p + max(0, Σ (B − U₁)·(B′ − U₂)/p)
 //
-// over receivers, colours and lights of one kind of light_model.h. One block of 32 is looked
-// at, twelve at least and 48 at most, and in it every sixteenth receiver; that costs some
-// hundredth parts of the bake. Deterministic, on any number of threads.
-[[nodiscard]] transport::SamplingError measure_sampling_error(const RayCaster& caster,
-                                                              const Receivers& receivers,
-                                                              const BakeParameters& parameters);
+// over draws, colours and lights of one kind of light_model.h. What is stated is
+// √(e² + its standard error) / √(Σ B²), the latter over all receivers: an estimate that is
+// rather too large than too small, and is zero only where no receiver that was drawn differs
+// between two bakes.
+//
+// `other` are the receivers looked at with another seed; `blocks` hold a sample for every
+// block. 48 draws of blocks are looked at, with six draws of receivers in each. Deterministic,
+// on any number of threads.
+[[nodiscard]] transport::SamplingError measure_sampling_error(
+    const RayCaster& caster,
+    const Receivers& receivers,
+    const Receivers& other,
+    const BakeParameters& parameters,
+    std::span<const BlockSample> blocks);
+
+// The seed of `other`.
+[[nodiscard]] std::uint64_t other_seed(const BakeParameters& parameters);
 
 }  // namespace relume::bake

@@ -22,18 +22,22 @@ struct ShardBaker::Block {
     std::span<float> tint;  // [3][256]
     // Of the slots in `stored`.
     std::vector<ErrorMeter::LitReceiver> measured;
+    std::vector<BakedColours> lit;  // of those that see anything
     StoredRows stored;
 };
 
 ShardBaker::ShardBaker(const RowBaker& rows,
                        const TracedReceivers& traced,
-                       const Quantisation& quantisation)
+                       const Quantisation& quantisation,
+                       std::uint64_t seed)
     : rows_(rows),
       traced_(traced),
       pool_(traced),
       patch_(traced.receivers().patch()),
       quantisation_(quantisation),
-      meter_(rows.projection(), quantisation) {}
+      seed_(seed),
+      lights_(rows.projection()),
+      meter_(lights_, quantisation) {}
 
 BakedShard ShardBaker::bake(std::uint32_t first_block,
                             std::uint32_t block_count,
@@ -45,6 +49,7 @@ BakedShard ShardBaker::bake(std::uint32_t first_block,
     // Receivers without a surface stay black, whatever the block's coefficients say of them.
     shard.notes.tint.assign(block_count * kTintValues, 0.0F);
     shard.notes.errors.resize(block_count);
+    shard.notes.samples.resize(block_count);
     std::atomic<std::uint64_t> rays = 0;
     const std::uint32_t channels = quantisation_.colour.channels;
     tbb::enumerable_thread_specific<BlockRows> rows(quantisation_.steps.size() / channels,
@@ -53,7 +58,7 @@ BakedShard ShardBaker::bake(std::uint32_t first_block,
         std::uint64_t cast = 0;
         shard.blocks[i] = bake_block(
             first_block + i, std::span(shard.notes.tint).subspan(i * kTintValues, kTintValues),
-            rows.local(), shard.notes.errors[i], cast, tick);
+            rows.local(), shard.notes.errors[i], shard.notes.samples[i], cast, tick);
         rays += cast;
     });
     shard.rays = rays;
@@ -64,12 +69,13 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
                                                std::span<float> tint,
                                                BlockRows& rows,
                                                BlockErrors& errors,
+                                               BlockSample& sample,
                                                std::uint64_t& rays,
                                                const Tick& tick) const {
     static thread_local Scratch scratch;
     const Receivers& receivers = traced_.receivers();
     rows.clear();
-    Block block{.rows = rows, .tint = tint, .measured = {}, .stored = {}};
+    Block block{.rows = rows, .tint = tint, .measured = {}, .lit = {}, .stored = {}};
     constexpr std::uint32_t kSlotsPerTick = 16;
     for (std::uint32_t first = 0; first < transport::kBlockSize; first += kSlotsPerTick) {
         const std::uint64_t before = scratch.rows.direct.visibility.rays;
@@ -88,6 +94,7 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
     }
     transport::EncodedBlock encoded = encode_block(rows, quantisation_.steps, block.stored);
     errors = measure(block);
+    sample = sample_block(receivers, block.lit, seed_ + number);
     return encoded;
 }
 
@@ -99,6 +106,8 @@ void ShardBaker::bake_receiver(const TracedReceiver& receiver,
         return;
     }
     rows_.bake(receiver, &pool_, scratch.row, scratch.rows);
+    block.lit.push_back(
+        {.receiver = receiver.receiver.index, .colours = lights_.colours(scratch.row)});
     const transport::ColourModel& colour = quantisation_.colour;
     split_colours(colour, scratch.row, scratch.channels);
     for (std::size_t c = 0; c < transport::kColours; ++c) {
@@ -110,7 +119,7 @@ void ShardBaker::bake_receiver(const TracedReceiver& receiver,
     }
     if (std::find(patch_.slots.begin(), patch_.slots.end(), slot) != patch_.slots.end()) {
         block.stored.slots.push_back(slot);
-        meter_.measure_exact(scratch.row, block.measured.emplace_back());
+        block.measured.emplace_back().exact = block.lit.back().colours;
     }
 }
 

@@ -25,7 +25,8 @@ class ShardBaker {
   public:
     ShardBaker(const RowBaker& rows,
                const TracedReceivers& traced,
-               const Quantisation& quantisation);
+               const Quantisation& quantisation,
+               std::uint64_t seed);
 
     // Called with receivers and rays done, by any thread; false stops the bake.
     using Tick = std::function<bool(std::uint64_t receivers, std::uint64_t rays)>;
@@ -48,6 +49,7 @@ class ShardBaker {
                                                      std::span<float> tint,
                                                      BlockRows& rows,
                                                      BlockErrors& errors,
+                                                     BlockSample& sample,
                                                      std::uint64_t& rays,
                                                      const Tick& tick) const;
 
@@ -56,6 +58,8 @@ class ShardBaker {
     PathPool pool_;
     BlockPatch patch_;
     const Quantisation& quantisation_;
+    std::uint64_t seed_;  // of the receivers that are sampled
+    ModelLights lights_;
     ErrorMeter meter_;
 };
 

@@ -16,6 +16,7 @@ namespace relume::bake {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<BlockErrors>);
+static_assert(std::is_trivially_copyable_v<BlockSample>);
 
 struct NotesHeader {
     std::uint64_t fingerprint = 0;
@@ -25,8 +26,8 @@ struct NotesHeader {
 
 std::vector<std::byte> payload_of(const ShardNotes& notes) {
     std::vector<std::byte> payload;
-    for (const files::Bytes part :
-         {files::bytes_of(notes.tint), files::bytes_of(notes.errors)}) {
+    for (const files::Bytes part : {files::bytes_of(notes.tint), files::bytes_of(notes.errors),
+                                    files::bytes_of(notes.samples)}) {
         payload.insert(payload.end(), part.begin(), part.end());
     }
     return payload;
@@ -62,8 +63,10 @@ std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
     ShardNotes notes;
     notes.tint.resize(std::size_t{block_count} * transport::kColours * transport::kBlockSize);
     notes.errors.resize(block_count);
+    notes.samples.resize(block_count);
     const std::size_t expected = sizeof(NotesHeader) + notes.tint.size() * sizeof(float) +
-                                 notes.errors.size() * sizeof(BlockErrors);
+                                 notes.errors.size() * sizeof(BlockErrors) +
+                                 notes.samples.size() * sizeof(BlockSample);
     NotesHeader header;
     std::string bytes;
     try {
@@ -82,6 +85,7 @@ std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
     take(&header, sizeof(header));
     take(notes.tint.data(), notes.tint.size() * sizeof(float));
     take(notes.errors.data(), notes.errors.size() * sizeof(BlockErrors));
+    take(notes.samples.data(), notes.samples.size() * sizeof(BlockSample));
     if (header.fingerprint != fingerprint_ || header.block_count != block_count ||
         header.checksum != transport::checksum(payload_of(notes))) {
         return std::nullopt;

@@ -1,8 +1,9 @@
 // What a finished shard leaves for the end of the bake beside its file: the tints of its
-// receivers and the errors measured in it. Kept in `partial/` of the transport directory until
-// the manifest is written, so that a bake that is killed can go on.
+// receivers, the errors measured in it and receivers that were drawn. Kept in `partial/` of the
+// transport directory until the manifest is written, so that a bake that is killed can go on.
 #pragma once
 
+#include "precompute/bake/blocks/block_sample.h"
 #include "precompute/bake/blocks/error_meter.h"
 #include "protocol/transport/format.h"
 
@@ -14,8 +15,9 @@
 namespace relume::bake {
 
 struct ShardNotes {
-    std::vector<float> tint;          // [blocks][3][256]
-    std::vector<BlockErrors> errors;  // [blocks]
+    std::vector<float> tint;           // [blocks][3][256]
+    std::vector<BlockErrors> errors;   // [blocks]
+    std::vector<BlockSample> samples;  // [blocks]
 };
 
 class ShardNotesFolder {

@@ -86,11 +86,9 @@ class Receivers {
     // While shards are baked one after another.
     [[nodiscard]] virtual ReachBound most_in_reach(std::uint32_t radius) const = 0;
 
-    // Receivers that stand for others, ascending: one for a block; about a sixteenth of a
-    // block, spread evenly over it; about `count` of all, spread evenly.
+    // Receivers that stand for others, ascending: one for a block; about `count` of all, spread
+    // evenly.
     [[nodiscard]] virtual std::size_t middle_of_block(std::uint32_t block) const = 0;
-    [[nodiscard]] virtual std::vector<std::size_t> spread_over_block(
-        std::uint32_t block) const = 0;
     [[nodiscard]] virtual std::vector<std::size_t> spread_over_all(std::size_t count) const = 0;
     // The same in every block.
     [[nodiscard]] virtual BlockPatch patch() const = 0;

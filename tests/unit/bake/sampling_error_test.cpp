@@ -1,6 +1,7 @@
 // The error that a bake states of its own sampling.
 #include "precompute/bake/blocks/sampling_error.h"
 
+#include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/scene/builtin.h"
 
@@ -21,9 +22,23 @@ BakeParameters parameters_with_seed(std::uint64_t seed) {
             .seed = seed};
 }
 
+// All that the bake does, but for what it stores.
 transport::SamplingError stated(const scene::Scene& scene, const BakeParameters& parameters) {
     const RayCaster caster(scene);
-    return measure_sampling_error(caster, PixelReceivers(caster, parameters), parameters);
+    const PixelReceivers receivers(caster, parameters);
+    BakeParameters with_other_seed = parameters;
+    with_other_seed.seed = other_seed(parameters);
+    const PixelReceivers other(caster, with_other_seed);
+    const LightTexels texels(parameters.face_resolution, parameters.seed);
+    const PathTracer tracer(caster, parameters);
+    const RowBaker rows(caster, texels, parameters);
+    const Quantisation quantisation = plan_quantisation(rows, receivers, tracer, parameters);
+    TracedReceivers traced(receivers, tracer, parameters);
+    traced.move_to(0, receivers.block_count());
+    const BakedShard shard =
+        ShardBaker(rows, traced, quantisation, parameters.seed)
+            .bake(0, receivers.block_count(), [](auto...) { return true; });
+    return measure_sampling_error(caster, receivers, other, parameters, shard.notes.samples);
 }
 
 TEST(SamplingError, FallsWithMoreSamples) {

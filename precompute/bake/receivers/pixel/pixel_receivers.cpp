@@ -158,18 +158,6 @@ std::size_t PixelReceivers::middle_of_block(std::uint32_t block) const {
                                std::min(box.top + kTileSide / 2, image_.height - 1));
 }
 
-std::vector<std::size_t> PixelReceivers::spread_over_block(std::uint32_t block) const {
-    constexpr std::uint32_t kSpacing = 4;  // pixels
-    const Box box = tile(block);
-    std::vector<std::size_t> receivers;
-    for (std::uint32_t y = box.top + kSpacing / 2; y < box.bottom; y += kSpacing) {
-        for (std::uint32_t x = box.left + kSpacing / 2; x < box.right; x += kSpacing) {
-            receivers.push_back(receiver_from_pixel(x, y));
-        }
-    }
-    return receivers;
-}
-
 std::vector<std::size_t> PixelReceivers::spread_over_all(std::size_t count) const {
     const double area = static_cast<double>(image_.width) * image_.height;
     const auto spacing =

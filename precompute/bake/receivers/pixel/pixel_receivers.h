@@ -47,8 +47,6 @@ class PixelReceivers final : public Receivers {
                                              std::uint32_t radius) const override;
     [[nodiscard]] ReachBound most_in_reach(std::uint32_t radius) const override;
     [[nodiscard]] std::size_t middle_of_block(std::uint32_t block) const override;
-    [[nodiscard]] std::vector<std::size_t> spread_over_block(
-        std::uint32_t block) const override;
     [[nodiscard]] std::vector<std::size_t> spread_over_all(std::size_t count) const override;
     // The 2×2 pixels in the middle of a tile.
     [[nodiscard]] BlockPatch patch() const override;
