@@ -32,7 +32,9 @@ TEST_F(HostileClient, OneAddressDoesNotLockTheOthersOut) {
         rooms += answer.find("snapshot") != std::string::npos ? 1U : 0U;
     }
     EXPECT_EQ(rooms, 3U);
+    // Who was refused leaves, so that it is known how many places are taken.
     held.resize(3);
+    EXPECT_TRUE(eventually([&] { return metrics_say("relume_connections 3"); }));
     unsigned uploads = 0;
     for (int i = 0; i < 3; ++i) {
         held.push_back(std::make_unique<RawSocket>(port(), 0, greedy));
@@ -42,6 +44,8 @@ TEST_F(HostileClient, OneAddressDoesNotLockTheOthersOut) {
         uploads += held.back()->receive_until("\r\n\r\n").starts_with("HTTP/1.1 100") ? 1U : 0U;
     }
     EXPECT_EQ(uploads, 2U);
+    held.pop_back();
+    EXPECT_TRUE(eventually([&] { return metrics_say("relume_connections 5"); }));
     for (int i = 0; i < 60; ++i) {
         held.push_back(std::make_unique<RawSocket>(port(), 0, greedy));
     }
