@@ -152,6 +152,13 @@ nlohmann::json describe(const std::filesystem::path& directory) {
     return description;
 }
 
+std::string exactness_text(const nlohmann::json& basis) {
+    return fmt::format(
+        "  exact images are exact for the light as filtered onto 6×{n}×{n} texels "
+        "(protocol/light.md)\n",
+        fmt::arg("n", basis.at("face_resolution").get<int>()));
+}
+
 std::string text_from_description(const nlohmann::json& d) {
     const auto& image = d.at("image");
     const auto bytes = d.at("bytes").get<double>();
@@ -171,6 +178,7 @@ std::string text_from_description(const nlohmann::json& d) {
                         error.at("natural").get<double>(), error.at("sun").get<double>());
     }
     text += text_from_measured(d.at("measured"));
+    text += exactness_text(d.at("basis"));
     return text + text_from_report(d.at("report"));
 }
 

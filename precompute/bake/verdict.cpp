@@ -1,5 +1,7 @@
 #include "precompute/bake/verdict.h"
 
+#include "precompute/bake/inspect.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -125,6 +127,7 @@ std::string verdict(const scene::ImportReport& report,
     text += purpose(description);
     text += sampling_error(description.at("sampling_error"));
     text += quantisation_error(description.at("measured"));
+    text += exactness_text(description.at("basis"));
     text += fmt::format("  {:.1f} MB to keep in memory\n",
                         description.at("bytes").get<double>() / 1e6);
     add_list(text, "not used of the scene", report.unused);

@@ -89,6 +89,7 @@ TEST_F(Output, EndsWithWhatItIsGoodForAndTheNextCommand) {
     EXPECT_TRUE(says("good for light of any kind")) << output_;
     EXPECT_TRUE(says("direct light alone")) << output_;
     EXPECT_TRUE(says("error of storing it: ")) << output_;
+    EXPECT_TRUE(says("exact images are exact for the light as filtered onto")) << output_;
     EXPECT_TRUE(says(" % of the image under a natural map")) << output_;
     EXPECT_TRUE(says("relume-server --scenes " + scratch_.path().string())) << output_;
     EXPECT_TRUE(says("relume render --scene mine ")) << output_;

@@ -1,12 +1,23 @@
 // The error that a bake states of its own sampling.
 #include "precompute/bake/blocks/sampling_error.h"
 
+#include "precompute/bake/bake.h"
+#include "precompute/bake/blocks/light_model.h"
 #include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
+#include "precompute/bake/relight.h"
 #include "precompute/scene/builtin.h"
+#include "protocol/basis/cubemap.h"
+#include "protocol/basis/cubemap_projection.h"
+#include "protocol/transport/transport.h"
+#include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
 
 namespace relume::bake {
 namespace {
@@ -70,6 +81,88 @@ TEST(SamplingError, SeesWhatTwoBakesShare) {
     const double sharp = stated(scene, parameters).natural;
     parameters.shrinkage = 10;
     EXPECT_GT(stated(scene, parameters).natural, 1.3 * sharp);
+}
+
+// ‖B − B′‖²/2 over ‖B‖², B and B′ two bakes that differ in their seed alone: the mean over all
+// pairs of bakes and over lights.
+class TwoBakes {
+  public:
+    explicit TwoBakes(const BakeParameters& parameters)
+        : projection_(basis::CubemapProjection::onto(
+              basis::CubemapBasis::haar(parameters.face_resolution))) {}
+
+    void add(const transport::Transport& transport) {
+        std::vector<DenseImage>& images = images_.emplace_back();
+        for (std::uint64_t seed = 0; seed < kLights; ++seed) {
+            images.push_back(under(transport, natural_light(projection_->basis(), seed)));
+        }
+        for (std::uint64_t seed = 0; seed < kLights; ++seed) {
+            images.push_back(under(transport, sun_light(*projection_, seed)));
+        }
+    }
+    [[nodiscard]] transport::SamplingError noise() const {
+        return {.natural = noise_of(0), .sun = noise_of(kLights)};
+    }
+
+  private:
+    static constexpr std::uint64_t kLights = 6;
+
+    [[nodiscard]] DenseImage under(const transport::Transport& transport,
+                                   const std::vector<float>& coefficients) const {
+        std::vector<float> texels(basis::texel_count(projection_->basis().face_resolution()));
+        projection_->reconstruct_radiance(coefficients, texels);
+        return relight(transport, {texels, texels, texels});
+    }
+    [[nodiscard]] double noise_of(std::size_t first_light) const {
+        double difference = 0;
+        double energy = 0;
+        for (std::size_t i = 0; i < images_.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                for (std::size_t light = first_light; light < first_light + kLights; ++light) {
+                    add_pair(images_[i][light], images_[j][light], difference, energy);
+                }
+            }
+        }
+        return std::sqrt(difference / energy);
+    }
+    static void add_pair(const DenseImage& a,
+                         const DenseImage& b,
+                         double& difference,
+                         double& energy) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < a.rgb[c].size(); ++i) {
+                const double d = a.rgb[c][i] - b.rgb[c][i];
+                difference += d * d / 2;
+                energy += a.rgb[c][i] * b.rgb[c][i];
+            }
+        }
+    }
+
+    std::shared_ptr<const basis::CubemapProjection> projection_;
+    std::vector<std::vector<DenseImage>> images_;  // by bake, by light
+};
+
+// What is stated is the noise and the bias together, and one standard error more.
+TEST(SamplingError, IsNoLessThanWhatTwoBakesDifferBy) {
+    for (const char* const name : {"box", "table", "thin"}) {
+        const scene::Scene scene = scene::build_builtin_scene(name);
+        constexpr std::uint64_t kBakes = 4;
+        TwoBakes bakes(parameters_with_seed(0));
+        transport::SamplingError mean{};
+        for (std::uint64_t seed = 1; seed <= kBakes; ++seed) {
+            const test::ScratchDirectory folder;
+            bake(scene, parameters_with_seed(seed), folder.path() / "scene.relume");
+            const auto transport = transport::Transport::open(folder.path() / "scene.relume");
+            bakes.add(*transport);
+            mean.natural += transport->manifest().sampling_error->natural / kBakes;
+            mean.sun += transport->manifest().sampling_error->sun / kBakes;
+        }
+        const transport::SamplingError noise = bakes.noise();
+        EXPECT_GT(mean.natural, noise.natural / 1.25) << name;
+        EXPECT_LT(mean.natural, noise.natural * 2) << name;
+        EXPECT_GT(mean.sun, noise.sun / 1.25) << name;
+        EXPECT_LT(mean.sun, noise.sun * 2) << name;
+    }
 }
 
 TEST(SamplingError, IsTheSameOnAnyNumberOfThreads) {
