@@ -83,8 +83,8 @@ void write_preview(const std::filesystem::path& path,
             for (const ReceiverSurface& surface : pixel.surfaces) {
                 const scene::Bsdf& bsdf = surface.point.bsdf;
                 const float lit = kAmbient + (1 - kAmbient) * surface.point.wo.z;
-                shown += (bsdf.diffuse_colour() + bsdf.specular_colour()) * surface.tint *
-                         (surface.share * lit);
+                shown +=
+                    (bsdf.diffuse_colour() + bsdf.specular_colour()) * (surface.share * lit);
             }
             for (int c = 0; c < 3; ++c) {
                 image.values[3 * (std::size_t{y} * parameters.width + x) +

@@ -110,6 +110,20 @@ Bsdf Bsdf::ggx(const Imath::V3f& base,
     return bsdf;
 }
 
+Bsdf Bsdf::with_mean_colours(std::span<const Bsdf> places) const {
+    Bsdf mean = *this;
+    mean.diffuse_ = {0, 0, 0};
+    mean.specular_ = {0, 0, 0};
+    mean.grazing_ = 0;
+    const float each = 1.0F / static_cast<float>(places.size());
+    for (const Bsdf& place : places) {
+        mean.diffuse_ += place.diffuse_ * each;
+        mean.specular_ += place.specular_ * each;
+        mean.grazing_ += place.grazing_ * each;
+    }
+    return mean;
+}
+
 Imath::V3f Bsdf::evaluate(const Imath::V3f& wi, const Imath::V3f& wo) const {
     if (wi.z <= 0 || wo.z <= 0)
         return {0, 0, 0};

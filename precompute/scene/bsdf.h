@@ -67,6 +67,11 @@ class Bsdf {
     // Below this a highlight is narrower than anything a cubemap texel resolves.
     static constexpr float kMinRoughness = 0.05F;
 
+    // The mean of several places of one surface: lobes as here, and colours that the places
+    // have on average. As f is linear in its colours, this is their mean f where they differ in
+    // nothing else.
+    [[nodiscard]] Bsdf with_mean_colours(std::span<const Bsdf> places) const;
+
     [[nodiscard]] BsdfModel model() const { return model_; }
     // f is the constant diffuse_colour()/π.
     [[nodiscard]] bool is_diffuse() const { return model_ == BsdfModel::lambert; }

@@ -16,16 +16,16 @@ namespace relume::bake {
 
 // A surface that a receiver stands for, at the place that stands for it.
 struct ReceiverSurface {
-    scene::SurfacePoint point;
-    Imath::V3f tint{1, 1, 1};  // average colour in the receiver over the colour at the point
-    float share = 0;           // of the receiver, in (0, 1]
-    float footprint = 0;       // of the receiver at the point, in world units
+    scene::SurfacePoint
+        point;            // with the colours that the surface has in the receiver on average
+    float share = 0;      // of the receiver, in (0, 1]
+    float footprint = 0;  // of the receiver at the point, in world units
     std::uint32_t material = 0;
     // Where rays leave the surface, spread over what the receiver holds of it: just off it, as
     // offset_origin says. Any aligned run of 2^k of them is spread evenly.
     std::array<Imath::V3f, kPacketSize> origins{};
     // Points whose reflections are averaged, where the surface turns so far within the receiver
-    // that its highlight does; none where `point` stands for all.
+    // that its highlight does, in the colours of `point`; none where `point` stands for all.
     std::vector<scene::SurfacePoint> turns;
 };
 

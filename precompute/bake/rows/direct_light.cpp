@@ -77,9 +77,9 @@ void DirectLight::compute(const Receiver& receiver,
         const ReceiverSurface& surface = surfaces[i];
         light_surface(surface, jitter_shift(receiver.place, i, seed), scratch);
         Reflection& reflection = scratch.reflection;
-        const Imath::V3f colour = reflection.is_diffuse ? surface.point.bsdf.diffuse_colour() *
-                                                              surface.tint * surface.share
-                                                        : surface.tint * surface.share;
+        const Imath::V3f colour =
+            surface.share *
+            (reflection.is_diffuse ? surface.point.bsdf.diffuse_colour() : Imath::V3f(1, 1, 1));
         if (row.is_grey) {
             texels_.scatter(reflection.grey, row.plane[0]);
             row.colour = colour;

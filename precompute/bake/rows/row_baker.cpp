@@ -77,8 +77,7 @@ void RowBaker::add_indirect(const TracedReceiver& traced,
         scratch.coefficients.clear();
         escapes_->project(scratch.escapes, scratch.coefficients);
         const ReceiverSurface& surface = traced.receiver.surfaces[i];
-        const Imath::V3f factor =
-            reflectance(surface.point.bsdf) * surface.tint * surface.share;
+        const Imath::V3f factor = reflectance(surface.point.bsdf) * surface.share;
         for (const Coefficient& coefficient : scratch.coefficients) {
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto colour = static_cast<int>(c);

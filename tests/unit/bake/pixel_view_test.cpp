@@ -2,6 +2,7 @@
 #include "precompute/bake/receivers/pixel/pixel_view.h"
 
 #include "precompute/scene/builtin.h"
+#include "precompute/scene/mirror_lobe.h"
 
 #include <gtest/gtest.h>
 
@@ -145,6 +146,39 @@ TEST(PixelView, OriginsLieAllOverWhatThePixelSeesOfTheSurface) {
             }
         }
     }
+}
+
+// What a surface reflects in its mirror direction, all colours together.
+float mirrored(const ReceiverSurface& surface) {
+    const Imath::V3f value = surface.point.reflect(scene::mirror_direction(surface.point));
+    return value.x + value.y + value.z;
+}
+
+TEST(PixelView, AVarnishReflectsTheSameWhateverWoodThePixelsMiddleMeets) {
+    const scene::Scene scene = scene::build_builtin_scene("table");
+    const RayCaster caster(scene);
+    const scene::Camera camera(scene.camera, kWidth, kHeight);
+    constexpr std::uint32_t kFiner = 6;
+    const scene::Camera finer(scene.camera, kFiner * kWidth, kFiner * kHeight);
+    std::uint32_t compared = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            const PixelView view = view_pixel(caster, camera, x, y, 16, 3);
+            if (view.surfaces.size() != 1 || view.coverage < 1 ||
+                scene.materials[view.surfaces[0].material].name != "inlay") {
+                continue;
+            }
+            float mean = 0;
+            for (std::uint32_t i = 0; i < kFiner * kFiner; ++i) {
+                const PixelView part = view_pixel(caster, finer, x * kFiner + i % kFiner,
+                                                  y * kFiner + i / kFiner, 1, 0);
+                mean += mirrored(part.surfaces.at(0)) / (kFiner * kFiner);
+            }
+            EXPECT_NEAR(mirrored(view.surfaces[0]), mean, 0.03F * mean) << x << ", " << y;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 50U);
 }
 
 TEST(PixelView, SurfacesThatTurnWithinThePixelHaveSeveralPoints) {

@@ -274,6 +274,26 @@ TEST_P(EveryBsdf, IsBlackBelowTheHorizon) {
     EXPECT_EQ(bsdf.sample(below, 0.5F, {0.5F, 0.5F}).weight, Imath::V3f(0));
 }
 
+TEST(Bsdf, OfMeanColoursIsTheMean) {
+    const std::vector<Bsdf> places{Bsdf::ggx({0.9F, 0.5F, 0.1F}, 0, 0.3F),
+                                   Bsdf::ggx({0.1F, 0.1F, 0.2F}, 0, 0.3F),
+                                   Bsdf::ggx({0.5F, 0.7F, 0.6F}, 1, 0.3F)};
+    const Bsdf mean = places[0].with_mean_colours(places);
+    const Imath::V3f wo = Imath::V3f(0.3F, -0.2F, 0.6F).normalized();
+    for (const Imath::V3f& towards :
+         {Imath::V3f(-0.3F, 0.2F, 0.6F), Imath::V3f(0.9F, 0, 0.2F), Imath::V3f(0, 0, 1)}) {
+        const Imath::V3f wi = towards.normalized();
+        Imath::V3f sum{0, 0, 0};
+        for (const Bsdf& place : places) {
+            sum += place.evaluate(wi, wo) / 3.0F;
+        }
+        const Imath::V3f value = mean.evaluate(wi, wo);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(value[c], sum[c], 1e-5F * sum[c]);
+        }
+    }
+}
+
 TEST(Bsdf, LambertReflectsExactlyItsAlbedo) {
     const Bsdf bsdf = Bsdf::lambert({0.8F, 0.5F, 0.2F});
     Random random(7);

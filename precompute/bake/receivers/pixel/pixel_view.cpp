@@ -19,7 +19,6 @@ constexpr float kSameSurfaceFootprints = 2.0F;
 
 struct Gathered {
     ReceiverSurface surface;
-    Imath::V3f colour_sum{0, 0, 0};
     float best_distance = 0;  // of the point that stands for it, from the pixel's centre
     std::vector<scene::SurfacePoint> hits;
 };
@@ -78,7 +77,18 @@ void spread_over_hits(Gathered& one) {
     }
     for (std::uint32_t lane = 0; lane < turns; ++lane) {
         surface.turns.push_back(hit_of_lane(hits, lane));
+        surface.turns.back().bsdf = surface.point.bsdf;
     }
+}
+
+// A texture is averaged by its colours, diffuse and specular apart: what a varnish reflects
+// does not depend on the wood below it.
+void take_mean_colours(Gathered& one) {
+    std::vector<scene::Bsdf> places;
+    for (const scene::SurfacePoint& hit : one.hits) {
+        places.push_back(hit.bsdf);
+    }
+    one.surface.point.bsdf = one.surface.point.bsdf.with_mean_colours(places);
 }
 
 class PixelGatherer {
@@ -121,13 +131,7 @@ class PixelGatherer {
         view.albedo = albedo_sum_ / casts;
         for (Gathered& one : gathered_) {
             one.surface.share = static_cast<float>(one.hits.size()) / casts;
-            const Imath::V3f own = colour_of(one.surface.point);
-            for (int c = 0; c < 3; ++c) {
-                one.surface.tint[c] =
-                    own[c] > 0
-                        ? one.colour_sum[c] / (own[c] * static_cast<float>(one.hits.size()))
-                        : 1.0F;
-            }
+            take_mean_colours(one);
             spread_over_hits(one);
             view.surfaces.push_back(std::move(one.surface));
         }
@@ -168,7 +172,6 @@ class PixelGatherer {
             found->surface = surface;
             found->best_distance = centre_distance;
         }
-        found->colour_sum += colour_of(surface.point);
         found->hits.push_back(surface.point);
     }
 
