@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -195,6 +196,8 @@ TEST_F(ViewerTest, FloatsWhileMovingHaveTheStatedErrors) {
 }
 
 TEST_F(ViewerTest, EveryViewerHasADisplayOfHisOwn) {
+    // Long enough for an image of the edit before the settled one, which is no JPEG.
+    configuration_.rooms.room.settle_delay = std::chrono::milliseconds(500);
     start();
     WebSocketClient dark(port(), "/session/r?scene=tiny");
     static_cast<void>(dark.receive_message("snapshot"));
