@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
         {"protocol/base/timing", {}},
         {"protocol/base/program", {"protocol/base/files", "protocol/base/text"}},
         {"protocol/basis", {}},
+        {"protocol/brdf", {"protocol/basis"}},
         {"protocol/transport", {"protocol/basis"}},
         {"protocol/relighting", {}},
         {"protocol/wire", {"protocol/relighting"}},
