@@ -30,9 +30,7 @@ constexpr std::array<std::uint8_t, kBlockSize> make_pyramid_places() {
 
 constexpr auto kPyramidPlaces = make_pyramid_places();
 
-}  // namespace
-
-void block_coefficients_from_receivers(std::span<float, kBlockSize> values) {
+void tile_coefficients_from_receivers(std::span<float, kBlockSize> values) {
     std::array<float, kBlockSize> scratch;
     basis::haar_forward(kTileSide, values, scratch);
     std::copy(values.begin(), values.end(), scratch.begin());
@@ -58,7 +56,7 @@ RELUME_CPU_CLONES void refine(const float* __restrict averages,
     }
 }
 
-void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
+void tile_receivers_from_coefficients(std::span<float, kBlockSize> values) {
     std::array<float, kBlockSize> receivers;  // in Z-order
     std::array<float, kBlockSize / 4> coarser;
     coarser[0] = values[0];
@@ -69,6 +67,53 @@ void block_receivers_from_coefficients(std::span<float, kBlockSize> values) {
     }
     for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
         values[slot] = receivers[kZOrder[slot]];
+    }
+}
+
+constexpr float kHalfRoot = 0x1.6a09e6p-1F;  // √½
+
+void line_coefficients_from_receivers(std::span<float, kBlockSize> values) {
+    std::array<float, kBlockSize> coefficients;
+    for (std::size_t pairs = kBlockSize / 2; pairs > 0; pairs /= 2) {
+        for (std::size_t i = 0; i < pairs; ++i) {
+            coefficients[pairs + i] = kHalfRoot * (values[2 * i] - values[2 * i + 1]);
+        }
+        for (std::size_t i = 0; i < pairs; ++i) {
+            values[i] = kHalfRoot * (values[2 * i] + values[2 * i + 1]);
+        }
+    }
+    std::copy(coefficients.begin() + 1, coefficients.end(), values.begin() + 1);
+}
+
+RELUME_CPU_CLONES void line_receivers_from_coefficients(std::span<float, kBlockSize> values) {
+    std::array<float, kBlockSize> finer;
+    std::array<float, kBlockSize> coarser;
+    coarser[0] = values[0];
+    for (std::size_t pairs = 1; pairs < kBlockSize; pairs *= 2) {
+        for (std::size_t i = 0; i < pairs; ++i) {
+            finer[2 * i] = kHalfRoot * (coarser[i] + values[pairs + i]);
+            finer[2 * i + 1] = kHalfRoot * (coarser[i] - values[pairs + i]);
+        }
+        std::copy_n(finer.begin(), 2 * pairs, coarser.begin());
+    }
+    std::copy(coarser.begin(), coarser.end(), values.begin());
+}
+
+}  // namespace
+
+void block_coefficients_from_receivers(BlockBasis basis, std::span<float, kBlockSize> values) {
+    if (basis == BlockBasis::haar_tile) {
+        tile_coefficients_from_receivers(values);
+    } else {
+        line_coefficients_from_receivers(values);
+    }
+}
+
+void block_receivers_from_coefficients(BlockBasis basis, std::span<float, kBlockSize> values) {
+    if (basis == BlockBasis::haar_tile) {
+        tile_receivers_from_coefficients(values);
+    } else {
+        line_receivers_from_coefficients(values);
     }
 }
 

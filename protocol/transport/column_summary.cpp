@@ -72,7 +72,7 @@ class ColumnSummer {
                     segments[k].empty() ? CellTag::empty : segments[k].tag(block);
                 cells[k] = decode_cell(tag, cells[k], values[k]);
                 if (tag != CellTag::empty) {
-                    block_receivers_from_coefficients(values[k]);
+                    block_receivers_from_coefficients(manifest_.block_basis, values[k]);
                 }
                 occupied = occupied || tag != CellTag::empty;
             }

@@ -15,6 +15,7 @@ inline constexpr std::uint32_t kMaxBlocksPerShard = 64;
 inline constexpr std::uint32_t kMaxImageSide = 16384;
 inline constexpr std::uint32_t kMaxChannels = 3;
 inline constexpr std::uint32_t kColours = 3;
+inline constexpr std::uint32_t kMaxTerms = 16;  // of a vertex
 inline constexpr std::uint32_t kMinSketchRows = 16;
 inline constexpr std::uint32_t kMaxSketchRows = 1024;
 

@@ -18,45 +18,6 @@ namespace {
 using nlohmann::json;
 using BasisKind = basis::CubemapBasis::Kind;
 
-// A name that means one file within the directory to every program: its parts are neither empty
-// nor "." nor "..", and no byte of it is a control character.
-bool is_safe_relative(const std::string& name) {
-    constexpr std::size_t kLongest = 255;
-    const auto is_control = [](char c) {
-        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    };
-    if (name.empty() || name.size() > kLongest || name.front() == '/' || name.back() == '/' ||
-        name.find("//") != std::string::npos ||
-        std::any_of(name.begin(), name.end(), is_control)) {
-        return false;
-    }
-    const std::filesystem::path path(name);
-    return std::none_of(path.begin(), path.end(),
-                        [](const auto& part) { return part == ".." || part == "."; });
-}
-
-std::string file_name(const ManifestReader& record) {
-    std::string name = record.string("file");
-    if (!is_safe_relative(name)) {
-        record.fail("file", text::quote(name),
-                    "a relative path of up to 255 bytes, without '..', empty parts or control "
-                    "characters");
-    }
-    return name;
-}
-
-json json_from(const FileRecord& record) {
-    return {{"file", record.file},
-            {"bytes", record.bytes},
-            {"xxh3", text_from_checksum(record.checksum)}};
-}
-
-FileRecord file_record(const ManifestReader& record) {
-    return {.file = file_name(record),
-            .bytes = record.integer("bytes", 0, std::uint64_t{1} << 40),
-            .checksum = record.digits("xxh3")};
-}
-
 basis::CubemapBasis signal_basis(const ManifestReader& object) {
     const std::string name = object.string("name");
     const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
@@ -110,6 +71,27 @@ std::vector<ShardRecord> shard_records(const ManifestReader& top,
     return shards;
 }
 
+// What the receivers are and how they are stored, as the kind says.
+void read_receivers(const ManifestReader& top, Manifest& manifest) {
+    if (manifest.kind == Kind::image) {
+        const ManifestReader image = top.object("image");
+        manifest.layout = ReceiverLayout::pixel_tiles(
+            {.width = image.integer32("width", 1, kMaxImageSide),
+             .height = image.integer32("height", 1, kMaxImageSide)});
+        return;
+    }
+    const auto basis = kBlockBasisNames.value(top.string("block_basis"));
+    if (!basis) {
+        top.fail("block_basis", text::quote(top.string("block_basis")),
+                 kBlockBasisNames.alternatives());
+    }
+    manifest.block_basis = *basis;
+    const ManifestReader mesh = top.object("mesh");
+    manifest.mesh = mesh_section(mesh);
+    manifest.layout =
+        ReceiverLayout::vertex_clusters(vertex_clusters(mesh, manifest.mesh->materials.size()));
+}
+
 // Splits off and verifies the first line, {"xxh3":"…",
 void check_first_line(std::string_view text, std::string_view file) {
     constexpr std::string_view kBegin = "{\"xxh3\":\"";
@@ -161,7 +143,6 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"kind", kKindNames.name(manifest.kind)},
         {"generator", manifest.generator},
         {"fingerprint", text_from_checksum(manifest.fingerprint)},
-        {"image", {{"width", manifest.image().width}, {"height", manifest.image().height}}},
         {"basis", json_from(manifest.signal_basis)},
         {"colour", json_from(manifest.colour)},
         {"blocks", manifest.block_count()},
@@ -175,6 +156,16 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"camera", json_from(manifest.camera)},
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
+    if (manifest.kind == Kind::image) {
+        object["image"] = {{"width", manifest.image().width},
+                           {"height", manifest.image().height}};
+    } else {
+        object["block_basis"] = kBlockBasisNames.name(manifest.block_basis);
+        object["mesh"] = json_from(manifest.mesh.value(), manifest.layout.clusters());
+        object["files"]["mesh"] = json_from(manifest.mesh->mesh);
+        object["files"]["brdfs"] = json_from(manifest.mesh->brdfs);
+        object["files"]["textures"] = json_from(manifest.mesh->textures);
+    }
     if (manifest.sampling_error) {
         object["sampling_error"] = json_from(manifest.sampling_error);
     }
@@ -206,9 +197,7 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     manifest.kind = *kind;
     manifest.generator = top.string("generator");
     manifest.fingerprint = top.digits("fingerprint");
-    manifest.layout = ReceiverLayout::pixel_tiles(
-        {.width = top.object("image").integer32("width", 1, kMaxImageSide),
-         .height = top.object("image").integer32("height", 1, kMaxImageSide)});
+    read_receivers(top, manifest);
     manifest.signal_basis = signal_basis(top.object("basis"));
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
@@ -219,6 +208,11 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     manifest.columns = file_record(files.object("columns"));
     manifest.receivers = file_record(files.object("receivers"));
     manifest.sketch = file_record(files.object("sketch"));
+    if (manifest.mesh) {
+        manifest.mesh->mesh = file_record(files.object("mesh"));
+        manifest.mesh->brdfs = file_record(files.object("brdfs"));
+        manifest.mesh->textures = file_record(files.object("textures"));
+    }
     manifest.shards = shard_records(top, manifest.block_count(), file);
     manifest.camera = camera_record(top.object("camera"));
     if (parsed.contains("sampling_error")) {

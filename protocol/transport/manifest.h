@@ -6,7 +6,9 @@
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/camera_record.h"
 #include "protocol/transport/colour_model.h"
+#include "protocol/transport/file_record.h"
 #include "protocol/transport/format.h"
+#include "protocol/transport/mesh_section.h"
 #include "protocol/transport/receiver_layout.h"
 
 #include <Imath/ImathVec.h>
@@ -26,21 +28,18 @@ namespace relume::transport {
 // manifest has.
 //   image   from light to the pixels of one camera: sections image, basis and camera; a block
 //           is a tile of pixels, stored in the tile's Haar basis
-enum class Kind : std::uint8_t { image };
+//   mesh    from light to the vertices of a surface, for cameras that move: sections mesh,
+//           basis and camera; a block is one term of a cluster of vertices
+enum class Kind : std::uint8_t { image, mesh };
 
-inline constexpr text::NameTable<Kind, 1> kKindNames({{
+inline constexpr text::NameTable<Kind, 2> kKindNames({{
     {Kind::image, "image"},
+    {Kind::mesh, "mesh"},
 }});
 
 // As the manifest and people name a basis: "haar", "sh".
 [[nodiscard]] std::string_view name_of(basis::CubemapBasis::Kind kind);
 [[nodiscard]] nlohmann::json json_from(const basis::CubemapBasis& basis);
-
-struct FileRecord {
-    std::string file;
-    std::uint64_t bytes = 0;
-    std::uint64_t checksum = 0;
-};
 
 struct ShardRecord {
     std::string file;
@@ -77,6 +76,7 @@ struct Manifest {
     FileRecord sketch;
     std::vector<ShardRecord> shards;
     CameraRecord camera;
+    std::optional<MeshSection> mesh;              // of kind `mesh`
     std::optional<SamplingError> sampling_error;  // where the bake has estimated it
     nlohmann::json bake = nlohmann::json::object();
     nlohmann::json measured = nlohmann::json::object();

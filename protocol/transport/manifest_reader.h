@@ -34,6 +34,9 @@ class ManifestReader {
         }
     }
 
+    // For messages: the file and the way to the object.
+    [[nodiscard]] const std::string& place() const { return place_; }
+    [[nodiscard]] bool has(const char* key) const { return object_.contains(key); }
     [[nodiscard]] const nlohmann::json& member(const char* key) const {
         const auto found = object_.find(key);
         if (found == object_.end()) {

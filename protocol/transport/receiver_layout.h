@@ -2,9 +2,12 @@
 #pragma once
 
 #include "protocol/transport/format.h"
+#include "protocol/transport/vertex_clusters.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <variant>
 
 namespace relume::transport {
 
@@ -38,36 +41,39 @@ struct TileGrid {
     friend bool operator==(const TileGrid&, const TileGrid&) = default;
 };
 
-// A value. Code that knows nothing of pixels asks for receivers, blocks and slots; code that
-// makes an image asks for the tiles as well.
+// A value. Code that knows nothing of pixels or vertices asks for blocks and slots; code that
+// makes an image asks for the tiles or the clusters.
 class ReceiverLayout {
   public:
     // Receiver y·width + x is pixel (x, y). At least one pixel.
-    [[nodiscard]] static constexpr ReceiverLayout pixel_tiles(const TileGrid& tiles) {
+    [[nodiscard]] static ReceiverLayout pixel_tiles(const TileGrid& tiles) {
         return ReceiverLayout(tiles);
     }
-    // Without receivers.
-    constexpr ReceiverLayout() = default;
-
-    [[nodiscard]] constexpr std::size_t receiver_count() const {
-        return std::size_t{tiles_.width} * tiles_.height;
+    // Receivers are vertices.
+    [[nodiscard]] static ReceiverLayout vertex_clusters(VertexClusters clusters) {
+        return ReceiverLayout(std::move(clusters));
     }
-    [[nodiscard]] constexpr std::uint32_t block_count() const { return tiles_.block_count(); }
+    // Without receivers.
+    ReceiverLayout() = default;
+
+    [[nodiscard]] std::uint32_t block_count() const {
+        return std::visit([](const auto& kind) { return kind.block_count(); }, kind_);
+    }
     // Slots of all blocks, with and without a receiver.
-    [[nodiscard]] constexpr std::size_t slot_count() const {
+    [[nodiscard]] std::size_t slot_count() const {
         return std::size_t{block_count()} * kBlockSize;
     }
-    // Where a receiver, below receiver_count(), is stored.
-    [[nodiscard]] constexpr ReceiverPlace place(std::size_t receiver) const {
-        return tiles_.place_from_pixel(static_cast<std::uint32_t>(receiver % tiles_.width),
-                                       static_cast<std::uint32_t>(receiver / tiles_.width));
+    // Of pixel tiles. Throws std::bad_variant_access otherwise, as clusters() does.
+    [[nodiscard]] const TileGrid& tiles() const { return std::get<TileGrid>(kind_); }
+    [[nodiscard]] const VertexClusters& clusters() const {
+        return std::get<VertexClusters>(kind_);
     }
-    [[nodiscard]] constexpr const TileGrid& tiles() const { return tiles_; }
 
   private:
-    explicit constexpr ReceiverLayout(const TileGrid& tiles) : tiles_(tiles) {}
+    explicit ReceiverLayout(std::variant<TileGrid, VertexClusters> kind)
+        : kind_(std::move(kind)) {}
 
-    TileGrid tiles_;
+    std::variant<TileGrid, VertexClusters> kind_;
 };
 
 }  // namespace relume::transport

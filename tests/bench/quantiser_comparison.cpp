@@ -184,7 +184,7 @@ void light_block(const bake::Quantisation& quantisation,
     std::vector<LitChannels> lit(kBlockSize);
     for (std::size_t light = 0; light < TestLights::kCount; ++light) {
         for (std::uint32_t k = 0; k < channels; ++k) {
-            transport::block_receivers_from_coefficients(sums[light][k]);
+            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, sums[light][k]);
             for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
                 lit[slot][light][k] = double{sums[light][k][slot]};
             }

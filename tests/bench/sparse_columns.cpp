@@ -64,7 +64,7 @@ void SparseColumns::for_each_block(const transport::ShardReader& shard,
             value *= step;
         }
         if (basis_ == PeerBasis::pixels) {
-            transport::block_receivers_from_coefficients(values);
+            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, values);
             keep_covered(shard.first_block() + block, values);
         }
         visit(block, values);
@@ -114,7 +114,7 @@ std::vector<float> SparseColumns::image_from_sums(std::span<const float> sums) c
     for (std::size_t part = 0; basis_ == PeerBasis::pixels && part < image.size() / kBlockSize;
          ++part) {
         const std::span<float, kBlockSize> values(&image[part * kBlockSize], kBlockSize);
-        transport::block_receivers_from_coefficients(values);
+        transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, values);
         keep_covered(static_cast<std::uint32_t>(part / kColours), values);
     }
     return image;

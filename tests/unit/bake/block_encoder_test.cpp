@@ -57,7 +57,7 @@ TEST(BlockEncoder, StoresTheBlocksCoefficientsColumnByColumn) {
         for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
             values[slot] = value_of(slot, j, k);
         }
-        transport::block_coefficients_from_receivers(values);
+        transport::block_coefficients_from_receivers(transport::BlockBasis::haar_tile, values);
         transport::QuantisedCell expected;
         transport::quantise_cell(values, steps[i], expected);
         transport::DecodedCell found;
@@ -67,7 +67,7 @@ TEST(BlockEncoder, StoresTheBlocksCoefficientsColumnByColumn) {
             values[s] = found[s] * steps[i];
         }
         // What it says the receivers have become is what a reader will find.
-        transport::block_receivers_from_coefficients(values);
+        transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, values);
         for (std::size_t s = 0; s < stored.slots.size(); ++s) {
             EXPECT_FLOAT_EQ(stored.rows[s][k * kColumns + j], values[stored.slots[s]]);
         }
