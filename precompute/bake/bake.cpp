@@ -12,10 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <ctime>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace relume::bake {
 namespace {
@@ -76,16 +79,22 @@ class ProgressCounter {
     BakeProgress progress_;
 };
 
-std::uint64_t receivers_in(const Receivers& receivers,
-                           std::uint32_t first_block,
-                           std::uint32_t block_count) {
+std::uint64_t receivers_in(const Receivers& receivers, const ShardClusters& shard) {
     std::uint64_t count = 0;
-    for (std::uint32_t block = first_block; block < first_block + block_count; ++block) {
+    for (std::uint32_t i = 0; i < shard.cluster_count; ++i) {
         for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
-            count += receivers.receiver_at(block, slot) ? 1U : 0U;
+            count += receivers.receiver_at(shard.first_cluster + i, slot) ? 1U : 0U;
         }
     }
     return count;
+}
+
+transport::ShardPlan plan_of(std::span<const ShardClusters> shards) {
+    transport::ShardPlan plan;
+    for (const ShardClusters& shard : shards) {
+        plan.add(shard.block_count);
+    }
+    return plan;
 }
 
 class Bake {
@@ -123,9 +132,8 @@ class Bake {
             quantisation_ = plan_quantisation(rows_, receivers, tracer_, parameters_);
         }
         manifest_.colour = quantisation_.colour;
-        transport::TransportWriter writer(directory_, manifest_,
-                                          {.block_count = receivers.block_count(),
-                                           .blocks_per_shard = receivers.blocks_per_shard()});
+        shards_ = shards_of(receivers);
+        transport::TransportWriter writer(directory_, manifest_, plan_of(shards_));
         const ShardNotesFolder notes(directory_, manifest_.fingerprint);
         summary_.shards = writer.plan().shard_count();
         const ShardBaker shards(rows_, traced_, quantisation_, parameters_.seed);
@@ -146,21 +154,21 @@ class Bake {
                     const ShardBaker& shards,
                     const transport::TransportWriter& writer,
                     const ShardNotesFolder& notes) {
-        const std::uint32_t first = writer.plan().first_block(shard);
-        const std::uint32_t count = writer.plan().blocks_in(shard);
-        if (writer.has_shard(shard) && notes.read(shard, count)) {
+        const ShardClusters& clusters = shards_[shard];
+        if (writer.has_shard(shard) && notes.read(shard, clusters)) {
             ++summary_.shards_resumed;
-            progress_.add_resumed(receivers_in(subject_->receivers(), first, count));
+            progress_.add_resumed(receivers_in(subject_->receivers(), clusters));
             return;
         }
         const CpuWatch cpu(summary_.cpu_seconds);
         {
             const AddedTime adding(summary_.path_seconds);
-            summary_.path_rays += traced_.move_to(first, count);
+            summary_.path_rays +=
+                traced_.move_to(clusters.first_cluster, clusters.cluster_count);
         }
         const AddedTime adding(summary_.row_seconds);
         const BakedShard baked =
-            shards.bake(first, count, [&](std::uint64_t receivers, std::uint64_t rays) {
+            shards.bake(clusters, [&](std::uint64_t receivers, std::uint64_t rays) {
                 return progress_.add(receivers, rays);
             });
         summary_.visibility_rays += baked.rays;
@@ -171,9 +179,9 @@ class Bake {
     void finish(transport::TransportWriter& writer, const ShardNotesFolder& notes) {
         transport::BakedTables tables{.steps = quantisation_.steps, .coverage = {}, .tint = {}};
         std::vector<BlockErrors> errors;
-        std::vector<BlockSample> samples;
+        std::vector<ClusterSample> samples;
         for (std::uint32_t shard = 0; shard < summary_.shards; ++shard) {
-            const auto noted = notes.read(shard, writer.plan().blocks_in(shard));
+            const auto noted = notes.read(shard, shards_[shard]);
             if (!noted) {
                 throw BakeError(directory_.string() +
                                 ": the notes of a finished shard are gone, expected them in "
@@ -183,13 +191,7 @@ class Bake {
             errors.insert(errors.end(), noted->errors.begin(), noted->errors.end());
             samples.insert(samples.end(), noted->samples.begin(), noted->samples.end());
         }
-        const std::vector<float> coverage = subject_->coverage();
-        tables.coverage.assign(manifest_.layout.slot_count(), 0);
-        for (std::size_t receiver = 0; receiver < coverage.size(); ++receiver) {
-            const transport::ReceiverPlace at = manifest_.layout.place(receiver);
-            tables.coverage[std::size_t{at.block} * transport::kBlockSize + at.slot] =
-                coverage[receiver];
-        }
+        tables.coverage = coverage_of_slots();
         writer.state_sampling_error(sampling_error(samples));
         writer.finish(tables, {{"quantisation_error", json_from_errors(errors)},
                                {"chroma_residual", quantisation_.chroma_residual}});
@@ -197,8 +199,27 @@ class Bake {
         subject_->write_files(directory_);
     }
 
+    // [blocks][256].
+    [[nodiscard]] std::vector<float> coverage_of_slots() {
+        const Receivers& receivers = subject_->receivers();
+        const std::vector<float> coverage = subject_->coverage();
+        std::vector<float> slots;
+        for (std::uint32_t cluster = 0; cluster < receivers.cluster_count(); ++cluster) {
+            std::array<float, transport::kBlockSize> of_cluster{};
+            for (std::uint32_t slot = 0; slot < transport::kBlockSize; ++slot) {
+                if (const auto receiver = receivers.receiver_at(cluster, slot)) {
+                    of_cluster[slot] = coverage[*receiver];
+                }
+            }
+            for (std::uint32_t term = 0; term < receivers.terms(cluster); ++term) {
+                slots.insert(slots.end(), of_cluster.begin(), of_cluster.end());
+            }
+        }
+        return slots;
+    }
+
     [[nodiscard]] transport::SamplingError sampling_error(
-        std::span<const BlockSample> samples) const {
+        std::span<const ClusterSample> samples) const {
         BakeParameters parameters = parameters_;
         parameters.seed = other_seed(parameters_);
         const ImageSubject other(caster_, parameters);
@@ -217,6 +238,7 @@ class Bake {
     ProgressCounter progress_;
     transport::Manifest manifest_;
     Quantisation quantisation_;
+    std::vector<ShardClusters> shards_;
     BakeSummary summary_;
 };
 

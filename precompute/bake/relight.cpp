@@ -59,13 +59,13 @@ void add_shard(const transport::Transport& transport,
 }
 
 // From each block's basis to its receivers.
-void to_receivers(std::vector<double>& sums) {
+void to_receivers(transport::BlockBasis basis, std::vector<double>& sums) {
     std::array<float, kBlockSize> block;
     for (std::size_t first = 0; first < sums.size(); first += kBlockSize) {
         const auto values = std::span(sums).subspan(first, kBlockSize);
         std::transform(values.begin(), values.end(), block.begin(),
                        [](double value) { return static_cast<float>(value); });
-        transport::block_receivers_from_coefficients(block);
+        transport::block_receivers_from_coefficients(basis, block);
         std::copy(block.begin(), block.end(), values.begin());
     }
 }
@@ -89,7 +89,7 @@ DenseImage relight(const transport::Transport& transport, const CubemapLight& li
     tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {
         add_shard(transport, transport.shards()[i], coefficients, pixels);
     });
-    to_receivers(pixels);
+    to_receivers(manifest.block_basis, pixels);
     DenseImage image{
         .width = manifest.image().width, .height = manifest.image().height, .rgb = {}};
     for (std::size_t c = 0; c < 3; ++c) {

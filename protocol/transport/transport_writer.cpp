@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace relume::transport {
 namespace {
 
@@ -43,10 +46,18 @@ void require_size(const char* what, std::size_t found, std::size_t expected) {
 
 }  // namespace
 
+ShardPlan ShardPlan::equal(std::uint32_t block_count, std::uint32_t blocks_per_shard) {
+    ShardPlan plan;
+    for (std::uint32_t block = 0; block < block_count; block += blocks_per_shard) {
+        plan.add(std::min(blocks_per_shard, block_count - block));
+    }
+    return plan;
+}
+
 TransportWriter::TransportWriter(std::filesystem::path directory,
                                  Manifest manifest,
                                  ShardPlan plan)
-    : directory_(std::move(directory)), manifest_(std::move(manifest)), plan_(plan) {
+    : directory_(std::move(directory)), manifest_(std::move(manifest)), plan_(std::move(plan)) {
     std::error_code error;
     std::filesystem::create_directories(directory_ / "shards", error);
     if (error) {

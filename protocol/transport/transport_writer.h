@@ -13,21 +13,26 @@
 
 namespace relume::transport {
 
-// Which blocks make shard number i: consecutive and equal in count but for the last.
-struct ShardPlan {
-    std::uint32_t block_count = 0;
-    std::uint32_t blocks_per_shard = 0;
+// Which blocks make shard number i: a run of them, that follows the run of shard i − 1.
+class ShardPlan {
+  public:
+    // Shards of equal length but for the last.
+    [[nodiscard]] static ShardPlan equal(std::uint32_t block_count,
+                                         std::uint32_t blocks_per_shard);
+
+    // Appends a shard of 1 … kMaxBlocksPerShard blocks.
+    void add(std::uint32_t block_count) { ends_.push_back(ends_.back() + block_count); }
 
     [[nodiscard]] std::uint32_t shard_count() const {
-        return (block_count + blocks_per_shard - 1) / blocks_per_shard;
+        return static_cast<std::uint32_t>(ends_.size() - 1);
     }
-    [[nodiscard]] std::uint32_t first_block(std::uint32_t shard) const {
-        return shard * blocks_per_shard;
-    }
+    [[nodiscard]] std::uint32_t first_block(std::uint32_t shard) const { return ends_[shard]; }
     [[nodiscard]] std::uint32_t blocks_in(std::uint32_t shard) const {
-        const std::uint32_t left = block_count - first_block(shard);
-        return left < blocks_per_shard ? left : blocks_per_shard;
+        return ends_[shard + 1] - ends_[shard];
     }
+
+  private:
+    std::vector<std::uint32_t> ends_{0};
 };
 
 // Per-receiver and per-column tables the bake knows; the rest is computed from the shards.

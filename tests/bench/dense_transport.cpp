@@ -44,8 +44,8 @@ void write_dense_transport(const std::filesystem::path& directory,
     manifest.choosing_rows = transport::kMinSketchRows;
     manifest.colour.matrix = {{{1}, {1}, {1}}};
     const std::uint32_t columns = manifest.column_count();
-    const transport::ShardPlan plan{.block_count = manifest.block_count(),
-                                    .blocks_per_shard = transport::kMaxBlocksPerShard};
+    const transport::ShardPlan plan =
+        transport::ShardPlan::equal(manifest.block_count(), transport::kMaxBlocksPerShard);
     transport::TransportWriter writer(directory, manifest, plan);
     for (std::uint32_t shard = 0; shard < plan.shard_count(); ++shard) {
         std::vector<transport::EncodedBlock> blocks(plan.blocks_in(shard),

@@ -184,7 +184,8 @@ void light_block(const bake::Quantisation& quantisation,
     std::vector<LitChannels> lit(kBlockSize);
     for (std::size_t light = 0; light < TestLights::kCount; ++light) {
         for (std::uint32_t k = 0; k < channels; ++k) {
-            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, sums[light][k]);
+            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile,
+                                                         sums[light][k]);
             for (std::size_t slot = 0; slot < kBlockSize; ++slot) {
                 lit[slot][light][k] = double{sums[light][k][slot]};
             }
@@ -247,7 +248,8 @@ StoredTiles store_as_relume(const FloatTiles& tiles,
             return stored;
         }
         bake::StoredRows no_rows;
-        const transport::EncodedBlock block = bake::encode_block(tile.rows, steps, no_rows);
+        const transport::EncodedBlock block =
+            bake::encode_block(transport::BlockBasis::haar_tile, tile.rows, steps, no_rows);
         light_block(tiles.quantisation, lights, step_scale, tile, block, stored.pixels);
         stored.bytes = bytes_of_block(block);
         return stored;

@@ -64,7 +64,8 @@ void SparseColumns::for_each_block(const transport::ShardReader& shard,
             value *= step;
         }
         if (basis_ == PeerBasis::pixels) {
-            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, values);
+            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile,
+                                                         values);
             keep_covered(shard.first_block() + block, values);
         }
         visit(block, values);

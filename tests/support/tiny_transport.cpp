@@ -80,8 +80,8 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
 void write_tiny_transport(const std::filesystem::path& directory,
                           const TinyTransportOptions& options) {
     const transport::Manifest manifest = tiny_manifest(options);
-    const transport::ShardPlan plan{.block_count = manifest.block_count(),
-                                    .blocks_per_shard = options.blocks_per_shard};
+    const transport::ShardPlan plan =
+        transport::ShardPlan::equal(manifest.block_count(), options.blocks_per_shard);
     std::mt19937_64 random(options.seed);
     const std::size_t segments = std::size_t{manifest.column_count()} * options.channels;
     transport::TransportWriter writer(directory, manifest, plan);

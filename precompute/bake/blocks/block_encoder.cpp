@@ -50,7 +50,8 @@ bool is_in_dead_zone(const Cell& values, float step) {
 }
 
 // Values of a quantised cell at the slots of `stored`, as column j of channel k.
-void reconstruct(const transport::QuantisedCell& quantised,
+void reconstruct(transport::BlockBasis basis,
+                 const transport::QuantisedCell& quantised,
                  float step,
                  std::size_t place,
                  StoredRows& stored) {
@@ -58,7 +59,7 @@ void reconstruct(const transport::QuantisedCell& quantised,
     for (std::size_t i = 0; i < kBlockSize; ++i) {
         values[i] = step * static_cast<float>(quantised[i]);
     }
-    transport::block_receivers_from_coefficients(values);
+    transport::block_receivers_from_coefficients(basis, values);
     for (std::size_t i = 0; i < stored.slots.size(); ++i) {
         stored.rows[i][place] = values[stored.slots[i]];
     }
@@ -66,7 +67,8 @@ void reconstruct(const transport::QuantisedCell& quantised,
 
 }  // namespace
 
-transport::EncodedBlock encode_block(const BlockRows& rows,
+transport::EncodedBlock encode_block(transport::BlockBasis basis,
+                                     const BlockRows& rows,
                                      std::span<const float> steps,
                                      StoredRows& stored) {
     const std::uint32_t channels = rows.channels();
@@ -84,9 +86,9 @@ transport::EncodedBlock encode_block(const BlockRows& rows,
                 const float step = steps[(first + i) * channels + k];
                 transport::QuantisedCell quantised{};
                 if (!is_in_dead_zone(values, step)) {
-                    transport::block_coefficients_from_receivers(values);
+                    transport::block_coefficients_from_receivers(basis, values);
                     transport::quantise_cell(values, step, quantised);
-                    reconstruct(quantised, step, k * rows.columns() + first + i, stored);
+                    reconstruct(basis, quantised, step, k * rows.columns() + first + i, stored);
                 }
                 block.append(quantised);
             }

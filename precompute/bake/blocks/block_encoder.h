@@ -2,6 +2,7 @@
 #pragma once
 
 #include "precompute/bake/blocks/block_rows.h"
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/shard_writer.h"
 
 #include <array>
@@ -18,7 +19,8 @@ struct StoredRows {
 };
 
 // `steps` is [N][K]. Fills the rows of `stored` for the slots it names.
-[[nodiscard]] transport::EncodedBlock encode_block(const BlockRows& rows,
+[[nodiscard]] transport::EncodedBlock encode_block(transport::BlockBasis basis,
+                                                   const BlockRows& rows,
                                                    std::span<const float> steps,
                                                    StoredRows& stored);
 

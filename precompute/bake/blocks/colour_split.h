@@ -35,6 +35,11 @@ void split_colours(const transport::ColourModel& model,
 struct ChromaResidual {
     double residual = 0;
     double energy = 0;
+
+    void add(const ChromaResidual& other, double weight = 1) {
+        residual += weight * other.residual;
+        energy += weight * other.energy;
+    }
 };
 [[nodiscard]] ChromaResidual chroma_residual(const CoefficientRow& row);
 

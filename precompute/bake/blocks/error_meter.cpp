@@ -36,7 +36,7 @@ void ErrorMeter::measure_stored(std::span<const float> stored,
     }
 }
 
-BlockErrors ErrorMeter::errors(const BlockPatch& patch, std::span<const LitReceiver> lit) {
+BlockErrors ErrorMeter::errors(const ClusterPatch& patch, std::span<const LitReceiver> lit) {
     BlockErrors sums;
     for (std::size_t i = 0; i < kModelLights; ++i) {
         ErrorSums& sum = sums[i / kLightsPerKind];

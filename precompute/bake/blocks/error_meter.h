@@ -46,7 +46,7 @@ class ErrorMeter {
                         LitReceiver& light) const;
 
     // Of the slots of a patch; those without a row are black.
-    [[nodiscard]] static BlockErrors errors(const BlockPatch& patch,
+    [[nodiscard]] static BlockErrors errors(const ClusterPatch& patch,
                                             std::span<const LitReceiver> lit);
 
   private:

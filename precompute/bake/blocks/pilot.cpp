@@ -1,7 +1,7 @@
 #include "precompute/bake/blocks/pilot.h"
 
 #include "precompute/bake/blocks/colour_split.h"
-#include "precompute/bake/blocks/sample_blocks.h"
+#include "precompute/bake/blocks/sample_clusters.h"
 #include "precompute/bake/blocks/step_chooser.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr double kColourless = 1e-3;
 constexpr std::size_t kLookedAt = 16384;
 constexpr std::size_t kChromaReceivers = 128;  // of each group
-constexpr SampleCount kPilotBlocks{.every = 16, .least = 1, .most = 16};
+constexpr SampleCount kPilotClusters{.every = 16, .least = 1, .most = 16};
 
 // Receivers of one kind among those looked at, and a few of them spread evenly.
 struct ReceiverGroup {
@@ -49,7 +49,7 @@ std::array<ReceiverGroup, 2> receiver_groups(const Receivers& receivers) {
 }
 
 struct Scratch {
-    CoefficientRow row;
+    std::vector<CoefficientRow> terms;
     ChannelRow channels;
     RowBaker::Scratch rows;
 };
@@ -65,43 +65,52 @@ double measure_chroma(const RowBaker& rows,
         std::vector<ChromaResidual> residuals(some.size());
         tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
             Scratch& scratch = scratches.local();
-            rows.bake(tracer.trace(receivers.look(some[i])), nullptr, scratch.row,
+            rows.bake(tracer.trace(receivers.look(some[i])), nullptr, scratch.terms,
                       scratch.rows);
-            residuals[i] = chroma_residual(scratch.row);
+            for (const CoefficientRow& row : scratch.terms) {
+                residuals[i].add(chroma_residual(row));
+            }
         });
         const double weight =
             static_cast<double>(group.all.size()) / static_cast<double>(some.size());
         for (const ChromaResidual& residual : residuals) {
-            total.residual += weight * residual.residual;
-            total.energy += weight * residual.energy;
+            total.add(residual, weight);
         }
     }
     return total.energy > 0 ? std::sqrt(total.residual / total.energy) : 0.0;
 }
 
-// Rows of some blocks, of the first channel: the same in both colour models but for a tint of
+// Rows of some clusters, of the first channel: the same in both colour models but for a tint of
 // the whole row.
-StepChooser look_at_blocks(const RowBaker& rows,
-                           const Receivers& receivers,
-                           const PathTracer& tracer,
-                           const BakeParameters& parameters) {
-    const std::vector<std::uint32_t> blocks =
-        sample_blocks(receivers, kPilotBlocks, parameters.seed);
-    StepChooser chooser(signal_basis(parameters), blocks.size());
+StepChooser look_at_clusters(const RowBaker& rows,
+                             const Receivers& receivers,
+                             const PathTracer& tracer,
+                             const BakeParameters& parameters) {
+    const std::vector<std::uint32_t> clusters =
+        sample_clusters(receivers, kPilotClusters, parameters.seed);
+    std::vector<std::size_t> first_block;
+    std::size_t blocks = 0;
+    for (const std::uint32_t cluster : clusters) {
+        first_block.push_back(blocks);
+        blocks += receivers.terms(cluster);
+    }
+    StepChooser chooser(signal_basis(parameters), receivers.block_basis(), blocks);
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(
-        std::size_t{0}, blocks.size() * transport::kBlockSize, [&](std::size_t i) {
-            const std::size_t block = i / transport::kBlockSize;
+        std::size_t{0}, clusters.size() * transport::kBlockSize, [&](std::size_t i) {
+            const std::size_t cluster = i / transport::kBlockSize;
             const auto slot = static_cast<std::uint32_t>(i % transport::kBlockSize);
-            const auto receiver = receivers.receiver_at(blocks[block], slot);
+            const auto receiver = receivers.receiver_at(clusters[cluster], slot);
             if (!receiver) {
                 return;
             }
             Scratch& scratch = scratches.local();
-            rows.bake(tracer.trace(receivers.look(*receiver)), nullptr, scratch.row,
+            rows.bake(tracer.trace(receivers.look(*receiver)), nullptr, scratch.terms,
                       scratch.rows);
-            split_colours(grey_model(), scratch.row, scratch.channels);
-            chooser.set_row(block, slot, scratch.channels.channel[0]);
+            for (std::size_t term = 0; term < scratch.terms.size(); ++term) {
+                split_colours(grey_model(), scratch.terms[term], scratch.channels);
+                chooser.set_row(first_block[cluster] + term, slot, scratch.channels.channel[0]);
+            }
         });
     return chooser;
 }
@@ -115,8 +124,8 @@ Quantisation plan_quantisation(const RowBaker& rows,
     Quantisation plan;
     plan.chroma_residual = measure_chroma(rows, receivers, tracer);
     plan.colour = plan.chroma_residual < kColourless ? grey_model() : luma_chroma_model();
-    plan.steps =
-        look_at_blocks(rows, receivers, tracer, parameters).steps(parameters.bits, plan.colour);
+    plan.steps = look_at_clusters(rows, receivers, tracer, parameters)
+                     .steps(parameters.bits, plan.colour);
     return plan;
 }
 

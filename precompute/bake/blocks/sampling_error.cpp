@@ -19,7 +19,7 @@
 namespace relume::bake {
 namespace {
 
-constexpr std::size_t kBlockDraws = 48;
+constexpr std::size_t kClusterDraws = 48;
 constexpr double kAnyone = 0.1;          // part of them
 constexpr std::uint32_t kMorePaths = 4;  // of a point, for no neighbours help
 
@@ -53,7 +53,8 @@ bool fills(const Receiver& receiver) {
     return receiver.surfaces.size() == 1 && receiver.surfaces.front().share > kWhole;
 }
 
-// Of one draw of a block: what its receivers are off by, over their probability in the block.
+// Of one draw of a cluster: what its receivers are off by, over their probability in the
+// cluster.
 struct DrawnError {
     std::array<double, kLightKinds> noise{};
     std::array<double, kLightKinds> bias{};
@@ -72,9 +73,9 @@ class Rebake {
                     RowSource(caster, without_bias(parameters, 1))},
           lights_(again_.rows.projection()) {}
 
-    [[nodiscard]] DrawnError error(std::uint32_t block, const BlockSample& sample) const {
+    [[nodiscard]] DrawnError error(std::uint32_t cluster, const ClusterSample& sample) const {
         TracedReceivers traced(other_, again_.tracer, again_.parameters);
-        (void)traced.move_to(block, 1);
+        (void)traced.move_to(cluster, 1);
         const PathPool pool(traced);
         DrawnError error;
         CoefficientRow row;
@@ -82,7 +83,7 @@ class Rebake {
         for (std::size_t draw = 0; draw < sample.drawn; ++draw) {
             const SampledReceiver& drawn = sample.draws[draw];
             const double weight =
-                1 / (drawn.probability * static_cast<double>(BlockSample::kDraws));
+                1 / (drawn.probability * static_cast<double>(ClusterSample::kDraws));
             LitColours again{};
             if (!traced.at(drawn.receiver).receiver.surfaces.empty()) {
                 again_.rows.bake(traced.at(drawn.receiver), &pool, row, scratch);
@@ -139,40 +140,41 @@ class Rebake {
     ModelLights lights_;
 };
 
-struct BlockDraw {
-    std::uint32_t block = 0;
+struct ClusterDraw {
+    std::uint32_t cluster = 0;
     double probability = 0;
 };
 
 // Both kinds of light count alike.
-std::vector<BlockDraw> draw_blocks(std::span<const BlockSample> blocks, std::uint64_t seed) {
+std::vector<ClusterDraw> draw_clusters(std::span<const ClusterSample> clusters,
+                                       std::uint64_t seed) {
     std::array<double, kLightKinds> likely{};
     double receivers = 0;
-    for (const BlockSample& block : blocks) {
-        receivers += block.receiver_count;
+    for (const ClusterSample& cluster : clusters) {
+        receivers += cluster.receiver_count;
         for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
-            likely[kind] += block.kinds[kind].likely;
+            likely[kind] += cluster.kinds[kind].likely;
         }
     }
-    std::vector<BlockDraw> draws;
+    std::vector<ClusterDraw> draws;
     if (receivers == 0) {
         return draws;
     }
     const double offset = double{transport::unit_float(transport::mix_bits(seed))};
     double cumulative = 0;
-    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
-        const double uniform = blocks[i].receiver_count / receivers;
+    for (std::uint32_t i = 0; i < clusters.size(); ++i) {
+        const double uniform = clusters[i].receiver_count / receivers;
         double probability = kAnyone * uniform;
         for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
             probability +=
                 (1 - kAnyone) / static_cast<double>(kLightKinds) *
-                (likely[kind] > 0 ? blocks[i].kinds[kind].likely / likely[kind] : uniform);
+                (likely[kind] > 0 ? clusters[i].kinds[kind].likely / likely[kind] : uniform);
         }
         cumulative += probability;
-        while (draws.size() < kBlockDraws &&
-               (static_cast<double>(draws.size()) + offset) / static_cast<double>(kBlockDraws) <
-                   cumulative) {
-            draws.push_back({.block = i, .probability = probability});
+        while (draws.size() < kClusterDraws && (static_cast<double>(draws.size()) + offset) /
+                                                       static_cast<double>(kClusterDraws) <
+                                                   cumulative) {
+            draws.push_back({.cluster = i, .probability = probability});
         }
     }
     return draws;
@@ -208,11 +210,11 @@ transport::SamplingError measure_sampling_error(const RayCaster& caster,
                                                 const Receivers& receivers,
                                                 const Receivers& other,
                                                 const BakeParameters& parameters,
-                                                std::span<const BlockSample> blocks) {
-    const std::vector<BlockDraw> draws = draw_blocks(blocks, parameters.seed);
+                                                std::span<const ClusterSample> clusters) {
+    const std::vector<ClusterDraw> draws = draw_clusters(clusters, parameters.seed);
     std::map<std::uint32_t, DrawnError> errors;
-    for (const BlockDraw& draw : draws) {
-        errors.try_emplace(draw.block);
+    for (const ClusterDraw& draw : draws) {
+        errors.try_emplace(draw.cluster);
     }
     std::vector<std::pair<const std::uint32_t, DrawnError>*> looked_at;
     for (auto& entry : errors) {
@@ -220,19 +222,19 @@ transport::SamplingError measure_sampling_error(const RayCaster& caster,
     }
     const Rebake rebake(caster, receivers, other, parameters);
     tbb::parallel_for(std::size_t{0}, looked_at.size(), [&](std::size_t i) {
-        auto& [block, error] = *looked_at[i];
-        error = rebake.error(block, blocks[block]);
+        auto& [cluster, error] = *looked_at[i];
+        error = rebake.error(cluster, clusters[cluster]);
     });
     const auto relative = [&](LightKind kind) {
         double energy = 0;
-        for (const BlockSample& block : blocks) {
-            energy += block.kinds[kind].energy;
+        for (const ClusterSample& cluster : clusters) {
+            energy += cluster.kinds[kind].energy;
         }
         if (draws.empty() || !(energy > 0)) {
             return 0.0;
         }
         const auto of_draw = [&](std::size_t i) -> const DrawnError& {
-            return errors.at(draws[i].block);
+            return errors.at(draws[i].cluster);
         };
         const Estimate noise = estimate(draws.size(), [&](std::size_t i) {
             return of_draw(i).noise[kind] / draws[i].probability;

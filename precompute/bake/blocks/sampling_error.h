@@ -3,7 +3,7 @@
 #pragma once
 
 #include "precompute/bake/base/parameters.h"
-#include "precompute/bake/blocks/block_sample.h"
+#include "precompute/bake/blocks/cluster_sample.h"
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
@@ -12,7 +12,7 @@
 
 namespace relume::bake {
 
-// Of a bake that is done, from what it shows (B) of some receivers of some blocks, which were
+// Of a bake that is done, from what it shows (B) of some receivers of some clusters, which were
 // drawn where the image is likely to be off, each with a known probability p. They are baked
 // once more with another seed (B′), and, where one surface fills the receiver, twice without
 // anything that trades bias for noise (U₁, U₂): means over points, without paths of neighbours
@@ -26,15 +26,15 @@ namespace relume::bake {
 // rather too large than too small, and is zero only where no receiver that was drawn differs
 // between two bakes.
 //
-// `other` are the receivers looked at with another seed; `blocks` hold a sample for every
-// block. 48 draws of blocks are looked at, with six draws of receivers in each. Deterministic,
-// on any number of threads.
+// `other` are the receivers looked at with another seed; `clusters` hold a sample for every
+// cluster. 48 draws of clusters are looked at, with six draws of receivers in each.
+// Deterministic, on any number of threads.
 [[nodiscard]] transport::SamplingError measure_sampling_error(
     const RayCaster& caster,
     const Receivers& receivers,
     const Receivers& other,
     const BakeParameters& parameters,
-    std::span<const BlockSample> blocks);
+    std::span<const ClusterSample> clusters);
 
 // The seed of `other`.
 [[nodiscard]] std::uint64_t other_seed(const BakeParameters& parameters);

@@ -10,9 +10,14 @@
 #include <atomic>
 
 namespace relume::bake {
+namespace {
+
+constexpr std::size_t kTintValues = std::size_t{transport::kColours} * transport::kBlockSize;
+
+}  // namespace
 
 struct ShardBaker::Scratch {
-    CoefficientRow row;
+    std::vector<CoefficientRow> terms;
     ChannelRow channels;
     RowBaker::Scratch rows;
 };
@@ -22,7 +27,6 @@ struct ShardBaker::Block {
     std::span<float> tint;  // [3][256]
     // Of the slots in `stored`.
     std::vector<ErrorMeter::LitReceiver> measured;
-    std::vector<BakedColours> lit;  // of those that see anything
     StoredRows stored;
 };
 
@@ -39,51 +43,76 @@ ShardBaker::ShardBaker(const RowBaker& rows,
       lights_(rows.projection()),
       meter_(lights_, quantisation) {}
 
-BakedShard ShardBaker::bake(std::uint32_t first_block,
-                            std::uint32_t block_count,
-                            const Tick& tick) const {
+BakedShard ShardBaker::bake(const ShardClusters& clusters, const Tick& tick) const {
+    const Receivers& receivers = traced_.receivers();
     BakedShard shard;
-    shard.blocks.assign(block_count, transport::EncodedBlock(0));
-    constexpr std::size_t kTintValues =
-        std::size_t{transport::kColours} * transport::kBlockSize;
+    shard.blocks.assign(clusters.block_count, transport::EncodedBlock(0));
     // Receivers without a surface stay black, whatever the block's coefficients say of them.
-    shard.notes.tint.assign(block_count * kTintValues, 0.0F);
-    shard.notes.errors.resize(block_count);
-    shard.notes.samples.resize(block_count);
+    shard.notes.tint.assign(clusters.block_count * kTintValues, 0.0F);
+    shard.notes.errors.resize(clusters.block_count);
+    shard.notes.samples.resize(clusters.cluster_count);
+    std::vector<std::uint32_t> first_block;
+    std::uint32_t blocks = 0;
+    for (std::uint32_t i = 0; i < clusters.cluster_count; ++i) {
+        first_block.push_back(blocks);
+        blocks += receivers.terms(clusters.first_cluster + i);
+    }
     std::atomic<std::uint64_t> rays = 0;
     const std::uint32_t channels = quantisation_.colour.channels;
-    tbb::enumerable_thread_specific<BlockRows> rows(quantisation_.steps.size() / channels,
-                                                    channels);
-    tbb::parallel_for(std::uint32_t{0}, block_count, [&](std::uint32_t i) {
+    tbb::enumerable_thread_specific<std::vector<BlockRows>> rows;
+    tbb::parallel_for(std::uint32_t{0}, clusters.cluster_count, [&](std::uint32_t i) {
+        const std::uint32_t number = clusters.first_cluster + i;
+        std::vector<BlockRows>& own = rows.local();
+        while (own.size() < receivers.terms(number)) {
+            own.emplace_back(quantisation_.steps.size() / channels, channels);
+        }
         std::uint64_t cast = 0;
-        shard.blocks[i] = bake_block(
-            first_block + i, std::span(shard.notes.tint).subspan(i * kTintValues, kTintValues),
-            rows.local(), shard.notes.errors[i], shard.notes.samples[i], cast, tick);
+        bake_cluster(number, first_block[i], std::span(own).first(receivers.terms(number)),
+                     shard, shard.notes.samples[i], cast, tick);
         rays += cast;
     });
     shard.rays = rays;
     return shard;
 }
 
-transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
-                                               std::span<float> tint,
-                                               BlockRows& rows,
-                                               BlockErrors& errors,
-                                               BlockSample& sample,
-                                               std::uint64_t& rays,
-                                               const Tick& tick) const {
+void ShardBaker::bake_cluster(std::uint32_t number,
+                              std::uint32_t first_block,
+                              std::span<BlockRows> rows,
+                              BakedShard& shard,
+                              ClusterSample& sample,
+                              std::uint64_t& rays,
+                              const Tick& tick) const {
     static thread_local Scratch scratch;
     const Receivers& receivers = traced_.receivers();
-    rows.clear();
-    Block block{.rows = rows, .tint = tint, .measured = {}, .lit = {}, .stored = {}};
+    std::vector<Block> blocks;
+    for (std::size_t term = 0; term < rows.size(); ++term) {
+        rows[term].clear();
+        blocks.push_back({.rows = rows[term],
+                          .tint = std::span(shard.notes.tint)
+                                      .subspan((first_block + term) * kTintValues, kTintValues),
+                          .measured = {},
+                          .stored = {}});
+    }
+    std::vector<BakedColours> lit;
     constexpr std::uint32_t kSlotsPerTick = 16;
     for (std::uint32_t first = 0; first < transport::kBlockSize; first += kSlotsPerTick) {
         const std::uint64_t before = scratch.rows.direct.visibility.rays;
         std::uint64_t baked = 0;
         for (std::uint32_t slot = first; slot < first + kSlotsPerTick; ++slot) {
-            if (const auto receiver = receivers.receiver_at(number, slot)) {
-                bake_receiver(traced_.at(*receiver), slot, block, scratch);
-                ++baked;
+            const auto receiver = receivers.receiver_at(number, slot);
+            if (!receiver) {
+                continue;
+            }
+            ++baked;
+            const TracedReceiver& traced = traced_.at(*receiver);
+            if (traced.receiver.surfaces.empty()) {
+                continue;
+            }
+            rows_.bake(traced, &pool_, scratch.terms, scratch.rows);
+            lit.push_back(
+                {.receiver = *receiver, .colours = lights_.colours(scratch.terms.front())});
+            for (std::size_t term = 0; term < blocks.size(); ++term) {
+                set_row(scratch.terms[term], slot, blocks[term], scratch);
             }
         }
         const std::uint64_t cast = scratch.rows.direct.visibility.rays - before;
@@ -92,24 +121,21 @@ transport::EncodedBlock ShardBaker::bake_block(std::uint32_t number,
             throw BakeInterrupted("stopped before all shards were finished");
         }
     }
-    transport::EncodedBlock encoded = encode_block(rows, quantisation_.steps, block.stored);
-    errors = measure(block);
-    sample = sample_block(receivers, block.lit, seed_ + number);
-    return encoded;
+    for (std::size_t term = 0; term < blocks.size(); ++term) {
+        Block& block = blocks[term];
+        shard.blocks[first_block + term] = encode_block(receivers.block_basis(), block.rows,
+                                                        quantisation_.steps, block.stored);
+        shard.notes.errors[first_block + term] = measure(block);
+    }
+    sample = sample_cluster(receivers, lit, seed_ + number);
 }
 
-void ShardBaker::bake_receiver(const TracedReceiver& receiver,
-                               std::uint32_t slot,
-                               Block& block,
-                               Scratch& scratch) const {
-    if (receiver.receiver.surfaces.empty()) {
-        return;
-    }
-    rows_.bake(receiver, &pool_, scratch.row, scratch.rows);
-    block.lit.push_back(
-        {.receiver = receiver.receiver.index, .colours = lights_.colours(scratch.row)});
+void ShardBaker::set_row(const CoefficientRow& row,
+                         std::uint32_t slot,
+                         Block& block,
+                         Scratch& scratch) const {
     const transport::ColourModel& colour = quantisation_.colour;
-    split_colours(colour, scratch.row, scratch.channels);
+    split_colours(colour, row, scratch.channels);
     for (std::size_t c = 0; c < transport::kColours; ++c) {
         block.tint[c * transport::kBlockSize + slot] =
             scratch.channels.tint[static_cast<int>(c)];
@@ -119,7 +145,7 @@ void ShardBaker::bake_receiver(const TracedReceiver& receiver,
     }
     if (std::find(patch_.slots.begin(), patch_.slots.end(), slot) != patch_.slots.end()) {
         block.stored.slots.push_back(slot);
-        block.measured.emplace_back().exact = block.lit.back().colours;
+        block.measured.emplace_back().exact = lights_.colours(row);
     }
 }
 

@@ -31,32 +31,31 @@ class ShardBaker {
     // Called with receivers and rays done, by any thread; false stops the bake.
     using Tick = std::function<bool(std::uint64_t receivers, std::uint64_t rays)>;
 
-    // These blocks are in reach of the traced receivers. Throws BakeInterrupted.
-    [[nodiscard]] BakedShard bake(std::uint32_t first_block,
-                                  std::uint32_t block_count,
-                                  const Tick& tick) const;
+    // These clusters are in reach of the traced receivers. Throws BakeInterrupted.
+    [[nodiscard]] BakedShard bake(const ShardClusters& clusters, const Tick& tick) const;
 
   private:
     struct Scratch;
     struct Block;
 
     [[nodiscard]] BlockErrors measure(Block& block) const;
-    void bake_receiver(const TracedReceiver& receiver,
-                       std::uint32_t slot,
-                       Block& block,
-                       Scratch& scratch) const;
-    [[nodiscard]] transport::EncodedBlock bake_block(std::uint32_t number,
-                                                     std::span<float> tint,
-                                                     BlockRows& rows,
-                                                     BlockErrors& errors,
-                                                     BlockSample& sample,
-                                                     std::uint64_t& rays,
-                                                     const Tick& tick) const;
+    void set_row(const CoefficientRow& row,
+                 std::uint32_t slot,
+                 Block& block,
+                 Scratch& scratch) const;
+    // Writes a cluster's blocks, one for each of its terms, from `first_block` of the shard on.
+    void bake_cluster(std::uint32_t number,
+                      std::uint32_t first_block,
+                      std::span<BlockRows> rows,
+                      BakedShard& shard,
+                      ClusterSample& sample,
+                      std::uint64_t& rays,
+                      const Tick& tick) const;
 
     const RowBaker& rows_;
     const TracedReceivers& traced_;
     PathPool pool_;
-    BlockPatch patch_;
+    ClusterPatch patch_;
     const Quantisation& quantisation_;
     std::uint64_t seed_;  // of the receivers that are sampled
     ModelLights lights_;

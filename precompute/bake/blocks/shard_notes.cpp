@@ -16,7 +16,7 @@ namespace relume::bake {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<BlockErrors>);
-static_assert(std::is_trivially_copyable_v<BlockSample>);
+static_assert(std::is_trivially_copyable_v<ClusterSample>);
 
 struct NotesHeader {
     std::uint64_t fingerprint = 0;
@@ -59,14 +59,15 @@ void ShardNotesFolder::write(std::uint32_t shard, const ShardNotes& notes) const
 }
 
 std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
-                                                 std::uint32_t block_count) const {
+                                                 const ShardClusters& of) const {
     ShardNotes notes;
-    notes.tint.resize(std::size_t{block_count} * transport::kColours * transport::kBlockSize);
-    notes.errors.resize(block_count);
-    notes.samples.resize(block_count);
+    notes.tint.resize(std::size_t{of.block_count} * transport::kColours *
+                      transport::kBlockSize);
+    notes.errors.resize(of.block_count);
+    notes.samples.resize(of.cluster_count);
     const std::size_t expected = sizeof(NotesHeader) + notes.tint.size() * sizeof(float) +
                                  notes.errors.size() * sizeof(BlockErrors) +
-                                 notes.samples.size() * sizeof(BlockSample);
+                                 notes.samples.size() * sizeof(ClusterSample);
     NotesHeader header;
     std::string bytes;
     try {
@@ -85,8 +86,8 @@ std::optional<ShardNotes> ShardNotesFolder::read(std::uint32_t shard,
     take(&header, sizeof(header));
     take(notes.tint.data(), notes.tint.size() * sizeof(float));
     take(notes.errors.data(), notes.errors.size() * sizeof(BlockErrors));
-    take(notes.samples.data(), notes.samples.size() * sizeof(BlockSample));
-    if (header.fingerprint != fingerprint_ || header.block_count != block_count ||
+    take(notes.samples.data(), notes.samples.size() * sizeof(ClusterSample));
+    if (header.fingerprint != fingerprint_ || header.block_count != of.block_count ||
         header.checksum != transport::checksum(payload_of(notes))) {
         return std::nullopt;
     }

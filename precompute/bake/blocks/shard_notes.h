@@ -3,8 +3,9 @@
 // transport directory until the manifest is written, so that a bake that is killed can go on.
 #pragma once
 
-#include "precompute/bake/blocks/block_sample.h"
+#include "precompute/bake/blocks/cluster_sample.h"
 #include "precompute/bake/blocks/error_meter.h"
+#include "precompute/bake/blocks/shard_clusters.h"
 #include "protocol/transport/format.h"
 
 #include <cstdint>
@@ -15,9 +16,9 @@
 namespace relume::bake {
 
 struct ShardNotes {
-    std::vector<float> tint;           // [blocks][3][256]
-    std::vector<BlockErrors> errors;   // [blocks]
-    std::vector<BlockSample> samples;  // [blocks]
+    std::vector<float> tint;             // [blocks][3][256]
+    std::vector<BlockErrors> errors;     // [blocks]
+    std::vector<ClusterSample> samples;  // [clusters]
 };
 
 class ShardNotesFolder {
@@ -29,7 +30,7 @@ class ShardNotesFolder {
     void write(std::uint32_t shard, const ShardNotes& notes) const;
     // Nothing when the file is missing, broken, or of another bake.
     [[nodiscard]] std::optional<ShardNotes> read(std::uint32_t shard,
-                                                 std::uint32_t block_count) const;
+                                                 const ShardClusters& of) const;
     // Removes the folder and all in it.
     void remove() const;
 

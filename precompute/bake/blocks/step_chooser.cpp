@@ -42,8 +42,10 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(const basis::CubemapBasis& basis, std::size_t blocks)
-    : basis_(basis), blocks_(blocks) {
+StepChooser::StepChooser(const basis::CubemapBasis& basis,
+                         transport::BlockBasis block_basis,
+                         std::size_t blocks)
+    : basis_(basis), block_basis_(block_basis), blocks_(blocks) {
     const std::size_t count = basis.coefficient_count();
     std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());
     for (std::uint32_t j = 0; j < count; ++j) {
@@ -136,7 +138,7 @@ std::vector<float> StepChooser::steps(std::uint32_t bits,
     target.lone_light =
         std::max(target.lone_light, kFinestError * kFinestError * energy.lone_light);
     tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
-        transport::block_coefficients_from_receivers(cells_[i]);
+        transport::block_coefficients_from_receivers(block_basis_, cells_[i]);
     });
     float high = 0;
     for (const Cell& cell : cells_) {

@@ -22,7 +22,9 @@ namespace relume::bake {
 class StepChooser {
   public:
     // Keeps some columns of every band.
-    StepChooser(const basis::CubemapBasis& basis, std::size_t blocks);
+    StepChooser(const basis::CubemapBasis& basis,
+                transport::BlockBasis block_basis,
+                std::size_t blocks);
 
     // The row of a receiver, N values; receivers never set are zero. Thread-safe for different
     // receivers.
@@ -52,6 +54,7 @@ class StepChooser {
     [[nodiscard]] SquaredErrors errors(Step step) const;
 
     basis::CubemapBasis basis_;
+    transport::BlockBasis block_basis_;
     std::size_t blocks_;
     std::vector<Column> columns_;
     std::vector<Cell> cells_;  // [columns][blocks]

@@ -4,6 +4,7 @@
 
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/scene/surface_point.h"
+#include "protocol/brdf/factored_brdf.h"
 
 #include <Imath/ImathVec.h>
 
@@ -27,6 +28,11 @@ struct ReceiverSurface {
     // Points whose reflections are averaged, where the surface turns so far within the receiver
     // that its highlight does, in the colours of `point`; none where `point` stands for all.
     std::vector<scene::SurfacePoint> turns;
+    // Where it is not null, the receiver is a vertex: it has this surface alone, and a row for
+    // each term of the BRDF, which is the response to light weighted by g_k and the cosine, for
+    // viewers in any direction. `point` then has a white Lambert BSDF, the normal of the vertex
+    // as both its normals, and brdf::local_frame of it. Outlives the receiver.
+    const brdf::FactoredBrdf* brdf = nullptr;
 };
 
 // Where a receiver's random numbers lie in the sequences that all receivers share. Receivers
@@ -43,6 +49,12 @@ struct Receiver {
     std::size_t index = 0;
     SequencePlace place;
     std::vector<ReceiverSurface> surfaces;  // none where it sees nothing; shares sum up to ≤ 1
+
+    // How many rows it has.
+    [[nodiscard]] std::size_t terms() const {
+        return surfaces.size() == 1 && surfaces[0].brdf != nullptr ? surfaces[0].brdf->terms
+                                                                   : 1;
+    }
 };
 
 }  // namespace relume::bake

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "precompute/bake/receivers/receiver.h"
+#include "protocol/transport/block_basis.h"
 
 #include <array>
 #include <cstddef>
@@ -30,9 +31,9 @@ struct Neighbour {
     float squared_distance = 0;
 };
 
-// Slots of one block that lie side by side, a receiver's or not, and which of them are
+// Slots of one cluster that lie side by side, a receiver's or not, and which of them are
 // neighbours, as pairs of indices into `slots`: there gradients of the image can be measured.
-struct BlockPatch {
+struct ClusterPatch {
     std::vector<std::uint32_t> slots;
     std::vector<std::array<std::size_t, 2>> neighbours;
 };
@@ -54,13 +55,18 @@ class Receivers {
     virtual ~Receivers() = default;
 
     [[nodiscard]] virtual std::size_t receiver_count() const = 0;
-    // Blocks of at most 256 receivers, in the order in which they are baked and stored.
-    [[nodiscard]] virtual std::uint32_t block_count() const = 0;
-    // Blocks that are baked together, at most: close to each other in the scene.
-    [[nodiscard]] virtual std::uint32_t blocks_per_shard() const = 0;
+    // Clusters of at most 256 receivers, in the order in which they are baked and stored.
+    [[nodiscard]] virtual std::uint32_t cluster_count() const = 0;
+    // Rows of every receiver of a cluster, 1 … transport::kMaxTerms. Each is stored in a block
+    // of its own.
+    [[nodiscard]] virtual std::uint32_t terms(std::uint32_t cluster) const = 0;
+    // In which their blocks are stored.
+    [[nodiscard]] virtual transport::BlockBasis block_basis() const = 0;
+    // Clusters that are baked together, at most: close to each other in the scene.
+    [[nodiscard]] virtual std::uint32_t clusters_per_shard() const = 0;
     // None where the slot is no receiver's. Slots in ascending order hold receivers in
     // ascending order.
-    [[nodiscard]] virtual std::optional<std::size_t> receiver_at(std::uint32_t block,
+    [[nodiscard]] virtual std::optional<std::size_t> receiver_at(std::uint32_t cluster,
                                                                  std::uint32_t slot) const = 0;
 
     [[nodiscard]] virtual Receiver look(std::size_t receiver) const = 0;
@@ -75,23 +81,23 @@ class Receivers {
     virtual void find_neighbours(std::size_t receiver,
                                  std::uint32_t radius,
                                  std::vector<Neighbour>& neighbours) const = 0;
-    // Receivers of these blocks and all their neighbours, and perhaps some more: ascending,
+    // Receivers of these clusters and all their neighbours, and perhaps some more: ascending,
     // disjoint.
-    [[nodiscard]] virtual std::vector<ReceiverRun> reach(std::uint32_t first_block,
-                                                         std::uint32_t block_count,
+    [[nodiscard]] virtual std::vector<ReceiverRun> reach(std::uint32_t first_cluster,
+                                                         std::uint32_t cluster_count,
                                                          std::uint32_t radius) const = 0;
-    // Receivers below it are in reach of no block from `first_block` on.
-    [[nodiscard]] virtual std::size_t first_in_reach(std::uint32_t first_block,
+    // Receivers below it are in reach of no cluster from `first_cluster` on.
+    [[nodiscard]] virtual std::size_t first_in_reach(std::uint32_t first_cluster,
                                                      std::uint32_t radius) const = 0;
     // While shards are baked one after another.
     [[nodiscard]] virtual ReachBound most_in_reach(std::uint32_t radius) const = 0;
 
-    // Receivers that stand for others, ascending: one for a block; about `count` of all, spread
-    // evenly.
-    [[nodiscard]] virtual std::size_t middle_of_block(std::uint32_t block) const = 0;
+    // Receivers that stand for others, ascending: one for a cluster; about `count` of all,
+    // spread evenly.
+    [[nodiscard]] virtual std::size_t middle_of_cluster(std::uint32_t cluster) const = 0;
     [[nodiscard]] virtual std::vector<std::size_t> spread_over_all(std::size_t count) const = 0;
-    // The same in every block.
-    [[nodiscard]] virtual BlockPatch patch() const = 0;
+    // The same in every cluster.
+    [[nodiscard]] virtual ClusterPatch patch() const = 0;
 };
 
 }  // namespace relume::bake

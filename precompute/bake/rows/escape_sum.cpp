@@ -13,13 +13,31 @@ void EscapeSum::add(const SurfacePaths& paths, float weight) {
     const float each = weight / static_cast<float>(paths.paths);
     const std::uint32_t* texel = paths.texels.data();
     for (const Escapes& escapes : paths.escapes) {
-        const Imath::V3f value = escapes.weight * each;
-        const float square = value.length2();
-        for (const std::uint32_t* end = texel + escapes.count; texel != end; ++texel) {
-            EscapeNode& node = nodes_[*texel];
-            node.sum += value;
-            node.squares += square;
+        add_texels({texel, escapes.count}, escapes.weight * each);
+        texel += escapes.count;
+    }
+}
+
+void EscapeSum::add(const SurfacePaths& paths, float weight, std::span<const float> factors) {
+    const float each = weight / static_cast<float>(paths.paths);
+    const std::uint32_t* texel = paths.texels.data();
+    for (std::size_t path = 0; path < factors.size(); ++path) {
+        const std::size_t last = path + 1 < factors.size() ? paths.starts[path + 1].first_escape
+                                                           : paths.escapes.size();
+        for (std::size_t i = paths.starts[path].first_escape; i < last; ++i) {
+            const Escapes& escapes = paths.escapes[i];
+            add_texels({texel, escapes.count}, escapes.weight * (each * factors[path]));
+            texel += escapes.count;
         }
+    }
+}
+
+void EscapeSum::add_texels(std::span<const std::uint32_t> texels, const Imath::V3f& value) {
+    const float square = value.length2();
+    for (const std::uint32_t texel : texels) {
+        EscapeNode& node = nodes_[texel];
+        node.sum += value;
+        node.squares += square;
     }
 }
 

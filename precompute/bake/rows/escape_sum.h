@@ -25,6 +25,8 @@ class EscapeSum {
     void reset(std::uint32_t face_resolution);
     // Adds weight · (mean of the paths).
     void add(const SurfacePaths& paths, float weight);
+    // The same, each path times a factor of its own, [starts].
+    void add(const SurfacePaths& paths, float weight, std::span<const float> factors);
 
     [[nodiscard]] std::uint32_t face_resolution() const { return face_resolution_; }
     // By texel_key, 6·n².
@@ -32,6 +34,8 @@ class EscapeSum {
     [[nodiscard]] std::span<const EscapeNode> nodes() const { return nodes_; }
 
   private:
+    void add_texels(std::span<const std::uint32_t> texels, const Imath::V3f& value);
+
     std::uint32_t face_resolution_ = 0;
     std::vector<EscapeNode> nodes_;
 };

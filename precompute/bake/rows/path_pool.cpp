@@ -1,9 +1,11 @@
 #include "precompute/bake/rows/path_pool.h"
 
 #include "precompute/scene/mirror_lobe.h"
+#include "protocol/brdf/local_frame.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace relume::bake {
@@ -47,14 +49,42 @@ float similarity(const ReceiverSurface& own, float nearness, const ReceiverSurfa
 
 }  // namespace
 
-void PathPool::gather(std::size_t receiver, std::uint32_t surface, EscapeSum& escapes) const {
-    const TracedReceiver& centre = traced_.at(receiver);
-    const std::uint32_t radius = traced_.radius();
-    if (radius == 0) {
-        escapes.add(centre.paths[surface], 1);
+void add_paths(const ReceiverSurface& own,
+               const SurfacePaths& paths,
+               float weight,
+               std::span<EscapeSum> escapes) {
+    if (own.brdf == nullptr) {
+        escapes.front().add(paths, weight);
         return;
     }
+    thread_local std::vector<float> g;
+    thread_local std::vector<float> factors;
+    const std::size_t terms = own.brdf->terms;
+    const brdf::Frame frame = brdf::local_frame(own.point.shading.normal);
+    g.resize(paths.starts.size() * terms);
+    for (std::size_t i = 0; i < paths.starts.size(); ++i) {
+        own.brdf->g.evaluate(frame.local_from_world(paths.starts[i].direction),
+                             std::span(g).subspan(i * terms, terms));
+    }
+    factors.resize(paths.starts.size());
+    for (std::size_t k = 0; k < terms; ++k) {
+        for (std::size_t i = 0; i < factors.size(); ++i) {
+            factors[i] = std::numbers::pi_v<float> * g[i * terms + k];
+        }
+        escapes[k].add(paths, weight, factors);
+    }
+}
+
+void PathPool::gather(std::size_t receiver,
+                      std::uint32_t surface,
+                      std::span<EscapeSum> escapes) const {
+    const TracedReceiver& centre = traced_.at(receiver);
+    const std::uint32_t radius = traced_.radius();
     const ReceiverSurface& own = centre.receiver.surfaces[surface];
+    if (radius == 0) {
+        add_paths(own, centre.paths[surface], 1, escapes);
+        return;
+    }
     const float nearness = centre.paths[surface].nearness;
     const float falloff = 2.0F / squared(static_cast<float>(radius));  // σ = radius/2
     struct Weighed {
@@ -80,7 +110,7 @@ void PathPool::gather(std::size_t receiver, std::uint32_t surface, EscapeSum& es
         }
     }
     for (const Weighed& one : pooled) {
-        escapes.add(*one.paths, one.weight / total);
+        add_paths(own, *one.paths, one.weight / total, escapes);
     }
 }
 

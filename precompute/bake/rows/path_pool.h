@@ -12,16 +12,28 @@
 #include "precompute/bake/rows/traced_receivers.h"
 
 #include <cstdint>
+#include <span>
 
 namespace relume::bake {
+
+// Adds `weight` times the mean of the paths, as seen by the surface `own`, to as many sums as
+// PathPool::gather takes.
+void add_paths(const ReceiverSurface& own,
+               const SurfacePaths& paths,
+               float weight,
+               std::span<EscapeSum> escapes);
 
 class PathPool {
   public:
     explicit PathPool(const TracedReceivers& traced) : traced_(traced) {}
 
-    // Adds the pooled paths of one surface of the receiver, without its reflectance. The
-    // receiver and its neighbours are in reach. Thread-safe for different sums.
-    void gather(std::size_t receiver, std::uint32_t surface, EscapeSum& escapes) const;
+    // Adds the pooled paths of one surface of the receiver, without its reflectance: to one
+    // sum, or, where the surface has a factored BRDF, to one for each term k, each path times
+    // π·g_k of the direction in which it leaves. The receiver and its neighbours are in reach.
+    // Thread-safe for different sums.
+    void gather(std::size_t receiver,
+                std::uint32_t surface,
+                std::span<EscapeSum> escapes) const;
 
   private:
     const TracedReceivers& traced_;

@@ -102,6 +102,11 @@ void PathTracer::trace_path(const ReceiverSurface& surface,
             }
         }
         weight *= event == 0 ? demodulated(point.bsdf, sample.weight) : sample.weight;
+        if (event == 0 && surface.brdf != nullptr) {
+            paths.starts.push_back(
+                {.direction = sample.wi,
+                 .first_escape = static_cast<std::uint32_t>(paths.escapes.size())});
+        }
         const auto hit = caster_.closest_hit(origin, sample.wi);
         ++paths.rays;
         if (!hit) {

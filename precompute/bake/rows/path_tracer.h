@@ -19,6 +19,12 @@ struct Escapes {
     std::uint32_t count = 0;
 };
 
+// How a path begins: where it goes from the surface, and which escape is the first of it.
+struct PathStart {
+    Imath::V3f direction{0, 0, 0};  // unit
+    std::uint32_t first_escape = 0;
+};
+
 // All paths from one surface of a receiver. Response of the surface to radiance L(ω):
 // reflectance · Σ weight · L / paths, over the texels of all escapes.
 struct SurfacePaths {
@@ -26,6 +32,9 @@ struct SurfacePaths {
     // One after another, as many as the escapes count: keys that sort by face, then along a
     // Morton curve (texel_key below).
     std::vector<std::uint32_t> texels;
+    // Of paths whose light is weighted by where it comes from, in the order of their escapes:
+    // kept where the surface has a factored BRDF.
+    std::vector<PathStart> starts;
     std::uint32_t paths = 0;
     float nearness = 0;  // mean of 1/distance to what the paths hit first, per world unit
     std::uint64_t rays = 0;

@@ -11,14 +11,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace relume::bake {
 
+// The white responses give a receiver its tint, which a term of a vertex has none of: g_k may
+// be negative, so that the response to white light says nothing of how colourful others are.
 struct CoefficientRow {
     std::array<std::vector<float>, 3> rgb;  // N values each
     Imath::V3f direct_white{0, 0, 0};       // response to a white light, direct part
-    Imath::V3f white{0, 0, 0};              // all of it
+    Imath::V3f white{0, 0, 0};              // all of it; both are white for a term of a vertex
 };
 
 class RowBaker {
@@ -33,21 +36,34 @@ class RowBaker {
     struct Scratch {
         DirectLight::Scratch direct;
         TexelRow texels;
-        std::vector<float> grey;  // coefficients of a row without colour
-        EscapeSum escapes;
+        std::vector<float> grey;                  // coefficients of a row without colour
+        std::array<std::vector<float>, 3> local;  // directions of texels, x, y, z
+        std::vector<float> terms;                 // g of every texel, [texels][terms]
+        std::vector<float> weighted;
+        std::vector<EscapeSum> escapes;
         std::vector<Coefficient> coefficients;
     };
 
-    // `pool` may be null: then the receiver's own paths are all there is.
+    // Makes the receiver's rows, as many as it has terms. `pool` may be null: then the
+    // receiver's own paths are all there is.
+    void bake(const TracedReceiver& traced,
+              const PathPool* pool,
+              std::vector<CoefficientRow>& rows,
+              Scratch& scratch) const;
+    // Of a receiver with one row.
     void bake(const TracedReceiver& traced,
               const PathPool* pool,
               CoefficientRow& row,
               Scratch& scratch) const;
 
   private:
+    void project(const TexelRow& texels, CoefficientRow& row, Scratch& scratch) const;
+    void project_terms(const ReceiverSurface& surface,
+                       std::span<CoefficientRow> rows,
+                       Scratch& scratch) const;
     void add_indirect(const TracedReceiver& traced,
                       const PathPool* pool,
-                      CoefficientRow& row,
+                      std::span<CoefficientRow> rows,
                       Scratch& scratch) const;
 
     [[nodiscard]] Imath::V3f white_response(const CoefficientRow& row) const;
@@ -57,6 +73,7 @@ class RowBaker {
     std::vector<basis::CubemapBasis::Term> constant_light_;
     std::uint64_t seed_;
     DirectLight direct_;
+    std::array<std::vector<float>, 3> texel_direction_;  // x, y, z of every texel, row-major
 };
 
 }  // namespace relume::bake

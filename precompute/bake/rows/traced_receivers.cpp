@@ -36,13 +36,14 @@ void TracedReceivers::check_memory(const Receivers& receivers,
     }
 }
 
-std::uint64_t TracedReceivers::move_to(std::uint32_t first_block, std::uint32_t block_count) {
-    const std::size_t needed = receivers_.first_in_reach(first_block, radius_);
+std::uint64_t TracedReceivers::move_to(std::uint32_t first_cluster,
+                                       std::uint32_t cluster_count) {
+    const std::size_t needed = receivers_.first_in_reach(first_cluster, radius_);
     while (!runs_.empty() && runs_.begin()->first + runs_.begin()->second.size() <= needed) {
         runs_.erase(runs_.begin());
     }
     std::vector<ReceiverRun> missing;
-    for (const ReceiverRun& run : receivers_.reach(first_block, block_count, radius_)) {
+    for (const ReceiverRun& run : receivers_.reach(first_cluster, cluster_count, radius_)) {
         add_missing(run, missing);
     }
     std::atomic<std::uint64_t> rays = 0;

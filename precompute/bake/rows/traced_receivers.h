@@ -1,7 +1,7 @@
 // The receivers a bake is working on: what they stand for and the paths from there.
 //
 // Shards are baked in order, and a receiver shares the paths of its neighbours, so what is in
-// reach of the current blocks is kept, and of those before them what later ones need. Each
+// reach of the current clusters is kept, and of those before them what later ones need. Each
 // receiver is traced once: memory does not grow with how many there are.
 #pragma once
 
@@ -27,10 +27,10 @@ class TracedReceivers {
     static constexpr std::uint64_t kMaxPathBytes = std::uint64_t{2} << 30U;
     static void check_memory(const Receivers& receivers, const BakeParameters& parameters);
 
-    // Traces, in parallel, what is missing of these blocks' receivers and of their neighbours;
-    // forgets what no block from `first_block` on needs, which never decreases. Returns the
-    // rays cast.
-    std::uint64_t move_to(std::uint32_t first_block, std::uint32_t block_count);
+    // Traces, in parallel, what is missing of these clusters' receivers and of their
+    // neighbours; forgets what no cluster from `first_cluster` on needs, which never decreases.
+    // Returns the rays cast.
+    std::uint64_t move_to(std::uint32_t first_cluster, std::uint32_t cluster_count);
 
     // A receiver in reach. Thread-safe while move_to does not run.
     [[nodiscard]] const TracedReceiver& at(std::size_t receiver) const {

@@ -48,7 +48,8 @@ BlockRows make_rows() {
 TEST(BlockEncoder, StoresTheBlocksCoefficientsColumnByColumn) {
     const std::vector<float> steps = make_steps();
     StoredRows stored{.slots = {0, 119, 255}, .rows = {}};
-    const transport::EncodedBlock block = encode_block(make_rows(), steps, stored);
+    const transport::EncodedBlock block =
+        encode_block(transport::BlockBasis::haar_tile, make_rows(), steps, stored);
     ASSERT_TRUE(block.complete());
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
         const std::uint32_t j = i / kChannels;
@@ -82,7 +83,8 @@ TEST(BlockEncoder, ReceiversWithoutRowsCostNoCoefficients) {
     }
     StoredRows stored;
     const std::array<float, 1> steps{1};
-    const transport::EncodedBlock block = encode_block(rows, steps, stored);
+    const transport::EncodedBlock block =
+        encode_block(transport::BlockBasis::haar_tile, rows, steps, stored);
     EXPECT_EQ(block.tag(0), transport::CellTag::strips8);
     EXPECT_EQ(transport::cell_nonzeros(block.tag(0), block.cell(0).data()), 1U);
 }
@@ -90,7 +92,8 @@ TEST(BlockEncoder, ReceiversWithoutRowsCostNoCoefficients) {
 TEST(BlockEncoder, BlocksWithoutReceiversGiveEmptyCells) {
     StoredRows stored;
     const std::vector<float> steps(10, 1.0F);
-    const transport::EncodedBlock block = encode_block(BlockRows(10, 1), steps, stored);
+    const transport::EncodedBlock block =
+        encode_block(transport::BlockBasis::haar_tile, BlockRows(10, 1), steps, stored);
     ASSERT_TRUE(block.complete());
     for (std::size_t i = 0; i < 10; ++i) {
         EXPECT_EQ(block.tag(i), transport::CellTag::empty);

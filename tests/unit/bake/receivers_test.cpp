@@ -21,7 +21,8 @@ namespace relume::bake {
 namespace {
 
 constexpr std::size_t kPoints = 10;
-constexpr std::array<std::size_t, 3> kFirstOfBlock{0, 6, kPoints};
+constexpr std::array<std::size_t, 3> kFirstOfCluster{0, 6, kPoints};
+constexpr ShardClusters kBothClusters{.cluster_count = 2, .block_count = 2};
 // 0–1–2–…–9, and 2–7 across the clusters.
 const std::array<std::vector<std::size_t>, kPoints> kEdges{
     {{1}, {0, 2}, {1, 3, 7}, {2, 4}, {3, 5}, {4, 6}, {5, 7}, {2, 6, 8}, {7, 9}, {8}}};
@@ -35,14 +36,19 @@ class FloorPoints final : public Receivers {
     }
 
     [[nodiscard]] std::size_t receiver_count() const override { return kPoints; }
-    [[nodiscard]] std::uint32_t block_count() const override { return 2; }
-    [[nodiscard]] std::uint32_t blocks_per_shard() const override { return 1; }
+    [[nodiscard]] std::uint32_t cluster_count() const override { return 2; }
+    [[nodiscard]] std::uint32_t terms(std::uint32_t /*cluster*/) const override { return 1; }
+    [[nodiscard]] transport::BlockBasis block_basis() const override {
+        return transport::BlockBasis::haar_line;
+    }
+    [[nodiscard]] std::uint32_t clusters_per_shard() const override { return 1; }
     // In every other slot.
-    [[nodiscard]] std::optional<std::size_t> receiver_at(std::uint32_t block,
+    [[nodiscard]] std::optional<std::size_t> receiver_at(std::uint32_t cluster,
                                                          std::uint32_t slot) const override {
-        const std::size_t receiver = kFirstOfBlock.at(block) + slot / 2;
-        return slot % 2 == 1 && receiver < kFirstOfBlock.at(block + 1) ? std::optional(receiver)
-                                                                       : std::nullopt;
+        const std::size_t receiver = kFirstOfCluster.at(cluster) + slot / 2;
+        return slot % 2 == 1 && receiver < kFirstOfCluster.at(cluster + 1)
+                   ? std::optional(receiver)
+                   : std::nullopt;
     }
     [[nodiscard]] Receiver look(std::size_t receiver) const override {
         ++looks_.at(receiver);
@@ -61,32 +67,32 @@ class FloorPoints final : public Receivers {
             neighbours.push_back({.receiver = other, .squared_distance = 1});
         }
     }
-    [[nodiscard]] std::vector<ReceiverRun> reach(std::uint32_t first_block,
-                                                 std::uint32_t block_count,
+    [[nodiscard]] std::vector<ReceiverRun> reach(std::uint32_t first_cluster,
+                                                 std::uint32_t cluster_count,
                                                  std::uint32_t /*radius*/) const override {
-        if (block_count == 2) {
+        if (cluster_count == 2) {
             return {{.first = 0, .last = kPoints}};
         }
-        return first_block == 0 ? std::vector<ReceiverRun>{{.first = 0, .last = 8}}
-                                : std::vector<ReceiverRun>{{.first = 2, .last = 3},
-                                                           {.first = 5, .last = kPoints}};
+        return first_cluster == 0 ? std::vector<ReceiverRun>{{.first = 0, .last = 8}}
+                                  : std::vector<ReceiverRun>{{.first = 2, .last = 3},
+                                                             {.first = 5, .last = kPoints}};
     }
-    [[nodiscard]] std::size_t first_in_reach(std::uint32_t first_block,
+    [[nodiscard]] std::size_t first_in_reach(std::uint32_t first_cluster,
                                              std::uint32_t /*radius*/) const override {
-        return first_block == 0 ? 0 : 2;
+        return first_cluster == 0 ? 0 : 2;
     }
     [[nodiscard]] ReachBound most_in_reach(std::uint32_t /*radius*/) const override {
         return {.receivers = kPoints, .shown = "10 points", .remedy = "fewer points"};
     }
-    [[nodiscard]] std::size_t middle_of_block(std::uint32_t block) const override {
-        return kFirstOfBlock.at(block) + 2;
+    [[nodiscard]] std::size_t middle_of_cluster(std::uint32_t cluster) const override {
+        return kFirstOfCluster.at(cluster) + 2;
     }
     [[nodiscard]] std::vector<std::size_t> spread_over_all(
         std::size_t /*count*/) const override {
         return {0, 3, 6, 9};
     }
     // The last is no receiver's slot.
-    [[nodiscard]] BlockPatch patch() const override {
+    [[nodiscard]] ClusterPatch patch() const override {
         return {.slots = {1, 3, 4}, .neighbours = {{0, 1}, {1, 2}}};
     }
 
@@ -230,7 +236,8 @@ TEST_F(ReceiversTest, ARowIsDirectLightAndThePathsOfItsNeighbours) {
     double changed = 0;
     for (std::uint32_t block = 0; block < 2; ++block) {
         traced.move_to(block, 1);
-        for (std::size_t i = kFirstOfBlock.at(block); i < kFirstOfBlock.at(block + 1); ++i) {
+        for (std::size_t i = kFirstOfCluster.at(block); i < kFirstOfCluster.at(block + 1);
+             ++i) {
             rows_.bake(traced.at(i), &pool, row, scratch);
             const Response found = response_of(row);
             const Response expected = expected_response(i);
@@ -268,11 +275,12 @@ TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
     TracedReceivers traced(receivers_, tracer_, parameters_);
     traced.move_to(0, 2);
     std::atomic<std::uint64_t> ticked = 0;
-    const BakedShard shard = ShardBaker(rows_, traced, quantisation, 1)
-                                 .bake(0, 2, [&](std::uint64_t receivers, std::uint64_t) {
-                                     ticked += receivers;
-                                     return true;
-                                 });
+    const BakedShard shard =
+        ShardBaker(rows_, traced, quantisation, 1)
+            .bake(kBothClusters, [&](std::uint64_t receivers, std::uint64_t) {
+                ticked += receivers;
+                return true;
+            });
     EXPECT_EQ(ticked, kPoints);
     ASSERT_EQ(shard.blocks.size(), 2U);
     const PathPool pool(traced);
@@ -298,7 +306,8 @@ TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
             }
         }
         StoredRows none;
-        const transport::EncodedBlock expected = encode_block(rows, quantisation.steps, none);
+        const transport::EncodedBlock expected =
+            encode_block(receivers_.block_basis(), rows, quantisation.steps, none);
         const transport::EncodedBlock& found = shard.blocks[block];
         ASSERT_EQ(found.segment_count(), expected.segment_count());
         std::size_t occupied = 0;
@@ -326,7 +335,9 @@ TEST_F(ReceiversTest, TheStatedErrorOfSamplingFallsWithMorePaths) {
         TracedReceivers traced(receivers_, tracer, parameters_);
         traced.move_to(0, 2);
         const BakedShard shard =
-            ShardBaker(rows, traced, quantisation, 1).bake(0, 2, [](auto...) { return true; });
+            ShardBaker(rows, traced, quantisation, 1).bake(kBothClusters, [](auto...) {
+                return true;
+            });
         // Points are the same with another seed.
         return measure_sampling_error(caster_, receivers_, receivers_, parameters_,
                                       shard.notes.samples)

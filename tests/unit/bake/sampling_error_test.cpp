@@ -45,10 +45,11 @@ transport::SamplingError stated(const scene::Scene& scene, const BakeParameters&
     const RowBaker rows(caster, texels, parameters);
     const Quantisation quantisation = plan_quantisation(rows, receivers, tracer, parameters);
     TracedReceivers traced(receivers, tracer, parameters);
-    traced.move_to(0, receivers.block_count());
-    const BakedShard shard =
-        ShardBaker(rows, traced, quantisation, parameters.seed)
-            .bake(0, receivers.block_count(), [](auto...) { return true; });
+    traced.move_to(0, receivers.cluster_count());
+    const BakedShard shard = ShardBaker(rows, traced, quantisation, parameters.seed)
+                                 .bake({.cluster_count = receivers.cluster_count(),
+                                        .block_count = receivers.cluster_count()},
+                                       [](auto...) { return true; });
     return measure_sampling_error(caster, receivers, other, parameters, shard.notes.samples);
 }
 

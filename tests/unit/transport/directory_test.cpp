@@ -125,7 +125,7 @@ TEST_P(Directory, TheTwoSketchesAreIndependent) {
 TEST_P(Directory, AWriterKnowsItsOwnShardsOnly) {
     test::write_tiny_transport(path_, options_);
     Manifest manifest = Transport::open(path_)->manifest();
-    const ShardPlan plan{.block_count = manifest.block_count(), .blocks_per_shard = 3};
+    const ShardPlan plan = ShardPlan::equal(manifest.block_count(), 3);
     EXPECT_TRUE(TransportWriter(path_, manifest, plan).has_shard(1));
     EXPECT_FALSE(std::filesystem::exists(path_ / "manifest.json"))
         << "a directory being written must not pass for a whole one";

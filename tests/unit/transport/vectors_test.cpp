@@ -117,7 +117,7 @@ Content content_of(const Vector& vector) {
 }
 
 void write(const Content& content, const fs::path& directory) {
-    const ShardPlan plan{.block_count = content.manifest.block_count(), .blocks_per_shard = 2};
+    const ShardPlan plan = ShardPlan::equal(content.manifest.block_count(), 2);
     TransportWriter writer(directory, content.manifest, plan);
     for (std::uint32_t shard = 0; shard < plan.shard_count(); ++shard) {
         std::vector<EncodedBlock> blocks;

@@ -48,7 +48,8 @@ TEST(BlockPixels, AreTheReceiversTimesTint) {
                             .rows = rows});
         BlockValues receivers = sums;
         for (auto& plane : receivers) {
-            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile, plane);
+            transport::block_receivers_from_coefficients(transport::BlockBasis::haar_tile,
+                                                         plane);
         }
         for (std::size_t y = 0; y < 18; ++y) {
             for (std::size_t x = 0; x < 40; ++x) {

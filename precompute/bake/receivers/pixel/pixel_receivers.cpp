@@ -35,14 +35,14 @@ std::size_t PixelReceivers::receiver_count() const {
     return std::size_t{image_.width} * image_.height;
 }
 
-std::uint32_t PixelReceivers::blocks_per_shard() const {
+std::uint32_t PixelReceivers::clusters_per_shard() const {
     const std::uint32_t rows = transport::kMaxBlocksPerShard / image_.tiles_x();
     return rows > 0 ? rows * image_.tiles_x() : transport::kMaxBlocksPerShard;
 }
 
-std::optional<std::size_t> PixelReceivers::receiver_at(std::uint32_t block,
+std::optional<std::size_t> PixelReceivers::receiver_at(std::uint32_t cluster,
                                                        std::uint32_t slot) const {
-    const Box box = tile(block);
+    const Box box = tile(cluster);
     const std::uint32_t x = box.left + slot % kTileSide;
     const std::uint32_t y = box.top + slot / kTileSide;
     if (x >= box.right || y >= box.bottom) {
@@ -99,18 +99,18 @@ void PixelReceivers::find_neighbours(std::size_t receiver,
     }
 }
 
-std::vector<ReceiverRun> PixelReceivers::reach(std::uint32_t first_block,
-                                               std::uint32_t block_count,
+std::vector<ReceiverRun> PixelReceivers::reach(std::uint32_t first_cluster,
+                                               std::uint32_t cluster_count,
                                                std::uint32_t radius) const {
-    // Boxes of the blocks' parts of each tile row, in the order of the rows.
+    // Boxes of the clusters' parts of each tile row, in the order of the rows.
     std::vector<Box> boxes;
-    for (std::uint32_t block = first_block; block < first_block + block_count;) {
-        const std::uint32_t in_row = std::min(image_.tiles_x() - block % image_.tiles_x(),
-                                              first_block + block_count - block);
-        Box box = tile(block);
-        box.right = tile(block + in_row - 1).right;
+    for (std::uint32_t cluster = first_cluster; cluster < first_cluster + cluster_count;) {
+        const std::uint32_t in_row = std::min(image_.tiles_x() - cluster % image_.tiles_x(),
+                                              first_cluster + cluster_count - cluster);
+        Box box = tile(cluster);
+        box.right = tile(cluster + in_row - 1).right;
         boxes.push_back(grown(box, radius));
-        block += in_row;
+        cluster += in_row;
     }
     std::vector<ReceiverRun> runs;
     for (std::uint32_t y = boxes.front().top; y < boxes.back().bottom; ++y) {
@@ -135,9 +135,9 @@ std::vector<ReceiverRun> PixelReceivers::reach(std::uint32_t first_block,
     return runs;
 }
 
-std::size_t PixelReceivers::first_in_reach(std::uint32_t first_block,
+std::size_t PixelReceivers::first_in_reach(std::uint32_t first_cluster,
                                            std::uint32_t radius) const {
-    return receiver_from_pixel(0, grown(tile(first_block), radius).top);
+    return receiver_from_pixel(0, grown(tile(first_cluster), radius).top);
 }
 
 ReachBound PixelReceivers::most_in_reach(std::uint32_t radius) const {
@@ -152,8 +152,8 @@ ReachBound PixelReceivers::most_in_reach(std::uint32_t radius) const {
             .remedy = "a narrower image"};
 }
 
-std::size_t PixelReceivers::middle_of_block(std::uint32_t block) const {
-    const Box box = tile(block);
+std::size_t PixelReceivers::middle_of_cluster(std::uint32_t cluster) const {
+    const Box box = tile(cluster);
     return receiver_from_pixel(std::min(box.left + kTileSide / 2, image_.width - 1),
                                std::min(box.top + kTileSide / 2, image_.height - 1));
 }
@@ -171,15 +171,15 @@ std::vector<std::size_t> PixelReceivers::spread_over_all(std::size_t count) cons
     return receivers;
 }
 
-BlockPatch PixelReceivers::patch() const {
+ClusterPatch PixelReceivers::patch() const {
     constexpr std::uint32_t kFirst = (kTileSide / 2 - 1) * (kTileSide + 1);
     return {.slots = {kFirst, kFirst + 1, kFirst + kTileSide, kFirst + kTileSide + 1},
             .neighbours = {{0, 1}, {2, 3}, {0, 2}, {1, 3}}};
 }
 
-PixelReceivers::Box PixelReceivers::tile(std::uint32_t block) const {
-    const std::uint32_t left = block % image_.tiles_x() * kTileSide;
-    const std::uint32_t top = block / image_.tiles_x() * kTileSide;
+PixelReceivers::Box PixelReceivers::tile(std::uint32_t cluster) const {
+    const std::uint32_t left = cluster % image_.tiles_x() * kTileSide;
+    const std::uint32_t top = cluster / image_.tiles_x() * kTileSide;
     return {.left = left,
             .top = top,
             .right = std::min(left + kTileSide, image_.width),

@@ -1,5 +1,5 @@
-// Pixels of an image, seen by the scene's camera: receiver y·width + x is pixel (x, y), a block
-// is a tile of 16×16, and steps are pixels.
+// Pixels of an image, seen by the scene's camera: receiver y·width + x is pixel (x, y), a
+// cluster is a tile of 16×16, and steps are pixels.
 #pragma once
 
 #include "precompute/bake/base/parameters.h"
@@ -25,10 +25,14 @@ class PixelReceivers final : public Receivers {
     [[nodiscard]] PixelView view(std::uint32_t x, std::uint32_t y) const;
 
     [[nodiscard]] std::size_t receiver_count() const override;
-    [[nodiscard]] std::uint32_t block_count() const override { return image_.block_count(); }
+    [[nodiscard]] std::uint32_t cluster_count() const override { return image_.block_count(); }
+    [[nodiscard]] std::uint32_t terms(std::uint32_t /*cluster*/) const override { return 1; }
+    [[nodiscard]] transport::BlockBasis block_basis() const override {
+        return transport::BlockBasis::haar_tile;
+    }
     // Whole tile rows where one fits into a shard, else a part of a row.
-    [[nodiscard]] std::uint32_t blocks_per_shard() const override;
-    [[nodiscard]] std::optional<std::size_t> receiver_at(std::uint32_t block,
+    [[nodiscard]] std::uint32_t clusters_per_shard() const override;
+    [[nodiscard]] std::optional<std::size_t> receiver_at(std::uint32_t cluster,
                                                          std::uint32_t slot) const override;
     [[nodiscard]] Receiver look(std::size_t receiver) const override;
     // Pixels of an image that is finer by kFiner, each seen at its middle alone: one at random
@@ -40,16 +44,16 @@ class PixelReceivers final : public Receivers {
                          std::uint32_t radius,
                          std::vector<Neighbour>& neighbours) const override;
     // Runs are parts of pixel rows.
-    [[nodiscard]] std::vector<ReceiverRun> reach(std::uint32_t first_block,
-                                                 std::uint32_t block_count,
+    [[nodiscard]] std::vector<ReceiverRun> reach(std::uint32_t first_cluster,
+                                                 std::uint32_t cluster_count,
                                                  std::uint32_t radius) const override;
-    [[nodiscard]] std::size_t first_in_reach(std::uint32_t first_block,
+    [[nodiscard]] std::size_t first_in_reach(std::uint32_t first_cluster,
                                              std::uint32_t radius) const override;
     [[nodiscard]] ReachBound most_in_reach(std::uint32_t radius) const override;
-    [[nodiscard]] std::size_t middle_of_block(std::uint32_t block) const override;
+    [[nodiscard]] std::size_t middle_of_cluster(std::uint32_t cluster) const override;
     [[nodiscard]] std::vector<std::size_t> spread_over_all(std::size_t count) const override;
     // The 2×2 pixels in the middle of a tile.
-    [[nodiscard]] BlockPatch patch() const override;
+    [[nodiscard]] ClusterPatch patch() const override;
 
   private:
     static constexpr std::uint32_t kFiner = 8;
@@ -66,7 +70,7 @@ class PixelReceivers final : public Receivers {
         std::uint32_t y = 0;
     };
 
-    [[nodiscard]] Box tile(std::uint32_t block) const;
+    [[nodiscard]] Box tile(std::uint32_t cluster) const;
     // The part of it that is in the image.
     [[nodiscard]] Box grown(const Box& box, std::uint32_t radius) const;
     [[nodiscard]] Pixel pixel_from_receiver(std::size_t receiver) const;

@@ -1,4 +1,4 @@
-#include "precompute/bake/blocks/block_sample.h"
+#include "precompute/bake/blocks/cluster_sample.h"
 
 #include "protocol/transport/hash.h"
 
@@ -61,10 +61,10 @@ Likely likely_error(const Receivers& receivers,
 
 }  // namespace
 
-BlockSample sample_block(const Receivers& receivers,
-                         std::span<const BakedColours> lit,
-                         std::uint64_t seed) {
-    BlockSample sample;
+ClusterSample sample_cluster(const Receivers& receivers,
+                             std::span<const BakedColours> lit,
+                             std::uint64_t seed) {
+    ClusterSample sample;
     if (lit.empty()) {
         return sample;
     }
@@ -94,10 +94,10 @@ BlockSample sample_block(const Receivers& receivers,
     std::partial_sum(probability.begin(), probability.end(), cumulative.begin());
     const double offset = double{transport::unit_float(transport::mix_bits(seed))};
     sample.receiver_count = static_cast<std::uint32_t>(lit.size());
-    sample.drawn = BlockSample::kDraws;
-    for (std::size_t draw = 0; draw < BlockSample::kDraws; ++draw) {
+    sample.drawn = ClusterSample::kDraws;
+    for (std::size_t draw = 0; draw < ClusterSample::kDraws; ++draw) {
         const double place =
-            (static_cast<double>(draw) + offset) / static_cast<double>(BlockSample::kDraws);
+            (static_cast<double>(draw) + offset) / static_cast<double>(ClusterSample::kDraws);
         const auto at = std::lower_bound(cumulative.begin(), cumulative.end() - 1, place);
         const auto index = static_cast<std::size_t>(at - cumulative.begin());
         sample.draws[draw] = {.receiver = lit[index].receiver,

@@ -1,4 +1,4 @@
-// A few receivers of a block, drawn where its image is likely to be off, with what the bake
+// A few receivers of a cluster, drawn where its image is likely to be off, with what the bake
 // shows of them: what the bake's sampling error is estimated from (sampling_error.h).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace relume::bake {
 
-// Of one block and one kind of light, over receivers, lights and colours.
+// Of one cluster and one kind of light, over receivers, lights and colours.
 struct KindSums {
     double energy = 0;  // Σ B²
     double likely = 0;  // Σ of what B is likely to be off by, squared, up to a common factor
@@ -20,11 +20,11 @@ struct KindSums {
 
 struct SampledReceiver {
     std::uint64_t receiver = 0;
-    double probability = 0;  // of a draw in this block to be it
+    double probability = 0;  // of a draw in this cluster to be it
     LitColours baked{};
 };
 
-struct BlockSample {
+struct ClusterSample {
     static constexpr std::size_t kDraws = 6;
 
     std::array<KindSums, kLightKinds> kinds{};
@@ -41,11 +41,11 @@ struct BakedColours {
 
 // Noise of sampling shows: where a receiver differs from its neighbours, an edge passes, or the
 // rim of a shadow or highlight, or what makes it differ is noise. So a receiver is drawn in
-// proportion to the squared differences to its neighbours in the block and, far less, to its
+// proportion to the squared differences to its neighbours in the cluster and, far less, to its
 // squared brightness, both kinds of light counting alike; one draw of ten takes any. `lit` is
 // in ascending order. Depends on nothing but the arguments.
-[[nodiscard]] BlockSample sample_block(const Receivers& receivers,
-                                       std::span<const BakedColours> lit,
-                                       std::uint64_t seed);
+[[nodiscard]] ClusterSample sample_cluster(const Receivers& receivers,
+                                           std::span<const BakedColours> lit,
+                                           std::uint64_t seed);
 
 }  // namespace relume::bake

@@ -1,4 +1,4 @@
-#include "precompute/bake/blocks/sample_blocks.h"
+#include "precompute/bake/blocks/sample_clusters.h"
 
 #include "protocol/transport/hash.h"
 
@@ -6,18 +6,18 @@
 
 namespace relume::bake {
 
-std::vector<std::uint32_t> sample_blocks(const Receivers& receivers,
-                                         const SampleCount& count,
-                                         std::uint64_t seed) {
-    std::vector<std::uint32_t> blocks;
+std::vector<std::uint32_t> sample_clusters(const Receivers& receivers,
+                                           const SampleCount& count,
+                                           std::uint64_t seed) {
+    std::vector<std::uint32_t> clusters;
     std::vector<std::uint32_t> occupied;
-    for (std::uint32_t block = 0; block < receivers.block_count(); ++block) {
-        blocks.push_back(block);
-        if (!receivers.look(receivers.middle_of_block(block)).surfaces.empty()) {
-            occupied.push_back(block);
+    for (std::uint32_t cluster = 0; cluster < receivers.cluster_count(); ++cluster) {
+        clusters.push_back(cluster);
+        if (!receivers.look(receivers.middle_of_cluster(cluster)).surfaces.empty()) {
+            occupied.push_back(cluster);
         }
     }
-    const std::vector<std::uint32_t>& from = occupied.empty() ? blocks : occupied;
+    const std::vector<std::uint32_t>& from = occupied.empty() ? clusters : occupied;
     const std::size_t wanted =
         std::min(std::clamp<std::size_t>(from.size() / count.every, count.least, count.most),
                  from.size());
