@@ -5,16 +5,17 @@
 #include "protocol/transport/transport.h"
 #include "server/engine/operators/stored_operator.h"
 #include "server/engine/workspace.h"
-#include "server/view/image_view.h"
+#include "server/view/view.h"
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace relume::served {
 
 // What everybody who relights one scene shares: how a light becomes a signal, the operator that
-// takes the signal to receivers, and the view that makes an image of them. Immutable but for
-// what its workspace lends; safe to share between threads.
+// takes the signal to receivers, and views, which make images of them. Immutable but for what
+// its workspace lends; safe to share between threads.
 class Scene {
   public:
     // Arranges the transport for whole products, in parallel.
@@ -22,9 +23,7 @@ class Scene {
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
-    [[nodiscard]] const transport::Transport& transport() const {
-        return operator_->transport();
-    }
+    [[nodiscard]] const transport::Transport& transport() const { return *transport_; }
     // From a cubemap of light of resolution `face_resolution()` to a signal.
     [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
     [[nodiscard]] std::uint32_t face_resolution() const {
@@ -36,15 +35,22 @@ class Scene {
     [[nodiscard]] const std::shared_ptr<const engine::Workspace>& workspace() const {
         return workspace_;
     }
-    [[nodiscard]] const view::ImageView& view() const { return view_; }
+    // A view of one's own, as it begins.
+    [[nodiscard]] std::unique_ptr<view::View> make_view() const;
+    // The size of the images that a view begins with.
+    [[nodiscard]] const transport::TileGrid& image() const {
+        return transport().manifest().image();
+    }
+    // The image of a view as it begins (view/view.h).
+    void write_image(std::span<const float> sums, std::span<float> rgb) const;
     // Bytes of memory.
     [[nodiscard]] std::uint64_t bytes() const { return operator_->bytes(); }
 
   private:
+    std::shared_ptr<const transport::Transport> transport_;
     std::shared_ptr<const basis::CubemapProjection> projection_;
     std::shared_ptr<const engine::StoredOperator> operator_;
     std::shared_ptr<const engine::Workspace> workspace_;
-    view::ImageView view_;
 };
 
 }  // namespace relume::served

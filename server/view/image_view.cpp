@@ -2,44 +2,29 @@
 
 #include "server/view/block_pixels.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <stdexcept>
+#include <cstddef>
 #include <utility>
 
 namespace relume::view {
-namespace {
 
 using transport::kBlockSize;
 using transport::kColours;
 using transport::kTileSide;
 
-std::size_t float_count(const PixelRect& pixels) {
-    return std::size_t{kColours} * pixels.width * pixels.height;
-}
-
-void require_size(std::span<const float> rgb, const PixelRect& pixels) {
-    if (rgb.size() != float_count(pixels)) {
-        throw std::invalid_argument(fmt::format("image buffer has {} values, expected {}",
-                                                rgb.size(), float_count(pixels)));
-    }
-}
-
-}  // namespace
-
-PixelRect pixels_of(const transport::TileGrid& image, const TileRun& tiles) {
-    const std::uint32_t left = tiles.first * kTileSide;
-    const std::uint32_t top = tiles.row * kTileSide;
-    return {.left = left,
-            .top = top,
-            .width = std::min(tiles.last * kTileSide, image.width) - left,
-            .height = std::min(kTileSide, image.height - top)};
-}
-
 ImageView::ImageView(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)) {}
+
+void ImageView::write_coverage(std::span<float> coverage) const {
+    const std::span<const float> by_slot = transport_->coverage();
+    for (std::uint32_t y = 0; y < image().height; ++y) {
+        for (std::uint32_t x = 0; x < image().width; ++x) {
+            const transport::ReceiverPlace place = image().place_from_pixel(x, y);
+            coverage[std::size_t{y} * image().width + x] =
+                by_slot[std::size_t{place.block} * kBlockSize + place.slot];
+        }
+    }
+}
 
 // Into an image that begins with these pixels.
 void ImageView::write_block(std::span<const float> sums,
@@ -55,13 +40,6 @@ void ImageView::write_block(std::span<const float> sums,
                         .row_floats = std::size_t{kColours} * pixels.width,
                         .columns = std::min(kTileSide, pixels.width - left),
                         .rows = std::min(kTileSide, pixels.height - top)});
-}
-
-void ImageView::write_image(std::span<const float> sums, std::span<float> rgb) const {
-    const PixelRect all{.width = image().width, .height = image().height};
-    require_size(rgb, all);
-    tbb::parallel_for(std::uint32_t{0}, image().block_count(),
-                      [&](std::uint32_t block) { write_block(sums, block, all, rgb); });
 }
 
 void ImageView::write_tiles(std::span<const float> sums,

@@ -9,9 +9,9 @@ namespace relume::bench {
 ImagePipeline::ImagePipeline(std::shared_ptr<const served::Scene> scene)
     : scene_(std::move(scene)),
       drag_(scene_->face_resolution()),
-      sky_(scene_->transport()),
       session_(scene_->workspace(), relighting::Strategy{}),
-      composer_(scene_->view(), sky_),
+      composer_(scene_->make_view(),
+                std::make_shared<const net::SkyPixels>(*scene_->make_view())),
       display_(wire::Display{}) {}
 
 ImagePipeline::~ImagePipeline() {
@@ -32,8 +32,8 @@ void ImagePipeline::begin_encoding() {
     composer_.compose(session_.sums(), {&display, 1}, false);
     encoding_.run([this] {
         jpeg_bytes_ = jpeg_
-                          .encode(composer_.codes(0), scene_->view().image().width,
-                                  scene_->view().image().height, kMovingQuality)
+                          .encode(composer_.codes(0), scene_->image().width,
+                                  scene_->image().height, kMovingQuality)
                           .size();
     });
 }

@@ -47,7 +47,6 @@ class ImagePipeline {
 
     std::shared_ptr<const served::Scene> scene_;
     LightDrag drag_;
-    net::SkyPixels sky_;
     engine::Session session_;
     net::FrameComposer composer_;
     net::DisplayTable display_;

@@ -1,6 +1,5 @@
 // The engine beside Eigen and [Ng03]: same transport, same coefficients, same threads, by
 // turns. They hold the transport by pixel, and then in the basis of our own cells.
-#include "server/view/image_view.h"
 #include "server/engine/sums/band_sums.h"
 #include "tests/bench/figure_groups.h"
 #include "tests/bench/peers.h"
@@ -101,9 +100,10 @@ struct Speedups {
 // it turns its sums into pixels too, and applies the tint, which they do not.
 class OurImage {
   public:
-    OurImage(const served::Scene& scene, PeerBasis basis) : scene_(&scene), sums_(scene.stored_operator()) {
+    OurImage(const served::Scene& scene, PeerBasis basis)
+        : scene_(&scene), sums_(scene.stored_operator()) {
         if (basis == PeerBasis::pixels) {
-            const transport::TileGrid& image = scene.view().image();
+            const transport::TileGrid& image = scene.image();
             pixels_.resize(std::size_t{transport::kColours} * image.width * image.height);
         }
     }
@@ -111,7 +111,7 @@ class OurImage {
     void add(std::span<const engine::ColumnChange> changes) {
         sums_.update(0, changes);
         if (!pixels_.empty()) {
-            scene_->view().write_image(sums_.total(), pixels_);
+            scene_->write_image(sums_.total(), pixels_);
         }
     }
 

@@ -47,7 +47,7 @@ void swing(const std::shared_ptr<const served::Scene>& scene,
     const std::uint32_t n = scene->face_resolution();
     const auto watch = [&](const engine::Session& session, const engine::StepReport& report) {
         extremes.not_finite += std::isfinite(report.stated_error) ? 0 : 1;
-        for (const float value : image_of(scene->view(), session).rgb) {
+        for (const float value : image_of(*scene, session).rgb) {
             extremes.not_finite += std::isfinite(value) ? 0 : 1;
         }
     };

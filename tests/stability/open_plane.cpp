@@ -19,7 +19,7 @@ double OpenPlane::brightness(const light::LightCubemap& cubemap) {
     session_.set_target(lighting_from_cubemap(cubemap));
     run_until_exact(session_);
     double sum = 0;
-    const RelitImage image = image_of(scene_->view(), session_);
+    const RelitImage image = image_of(*scene_, session_);
     for (const float value : image.rgb) {
         sum += double{value};
     }

@@ -13,7 +13,7 @@ Relit Relighter::relit(const light::LightCubemap& light) {
     (void)contestant_->step();
     Relit relit;
     contestant_->write_radiance(relit.light);
-    const auto& size = scene_->view().image();
+    const auto& size = scene_->image();
     relit.image = {size.width, size.height, {}};
     relit.image.rgb.resize(std::size_t{3} * size.width * size.height);
     contestant_->write_image(relit.image.rgb);

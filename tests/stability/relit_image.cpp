@@ -20,11 +20,11 @@ double root_of_squares(std::size_t count, Value value) {
 
 }  // namespace
 
-RelitImage image_of(const view::ImageView& view, const engine::Session& session) {
-    const auto& size = view.image();
+RelitImage image_of(const served::Scene& scene, const engine::Session& session) {
+    const auto& size = scene.image();
     RelitImage image{size.width, size.height, {}};
     image.rgb.resize(std::size_t{3} * size.width * size.height);
-    view.write_image(session.sums(), image.rgb);
+    scene.write_image(session.sums(), image.rgb);
     return image;
 }
 
@@ -66,7 +66,7 @@ RelitRun relight_in_turn(const std::shared_ptr<const served::Scene>& scene,
         session.set_target(lighting);
         run.steps.push_back(session.advance_incrementally(
             {.columns = columns, .bytes = std::numeric_limits<std::uint64_t>::max()}));
-        run.images.push_back(image_of(scene->view(), session));
+        run.images.push_back(image_of(*scene, session));
         run.approximations.emplace_back(session.approximation().begin(),
                                         session.approximation().end());
     }
@@ -80,7 +80,7 @@ std::vector<RelitImage> exact_images(const std::shared_ptr<const served::Scene>&
     for (const Lighting& lighting : lightings) {
         session.set_target(lighting);
         run_until_exact(session);
-        images.push_back(image_of(scene->view(), session));
+        images.push_back(image_of(*scene, session));
     }
     return images;
 }

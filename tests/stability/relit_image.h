@@ -19,7 +19,7 @@ struct RelitImage {
     std::vector<float> rgb;
 };
 
-[[nodiscard]] RelitImage image_of(const view::ImageView& view, const engine::Session& session);
+[[nodiscard]] RelitImage image_of(const served::Scene& scene, const engine::Session& session);
 
 // Euclidean, over all pixels and colours.
 [[nodiscard]] double norm(const RelitImage& image);

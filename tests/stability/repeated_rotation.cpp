@@ -76,7 +76,7 @@ Outcome provoke(Workbench& workbench) {
     const auto show = [&](const light::LightCubemap& cubemap) {
         session.set_target(lighting_from_cubemap(cubemap));
         run_until_exact(session);
-        return image_of(scene->view(), session);
+        return image_of(*scene, session);
     };
     const RelitImage start_image = show(start);
     const double start_energy = total_energy(start).y;

@@ -66,14 +66,14 @@ Rest rest_of(const std::shared_ptr<const served::Scene>& scene,
     session.set_target(wanted);
     engine::StepReport step = session.advance_incrementally(budget);
     Rest rest;
-    RelitImage before = image_of(scene->view(), session);
+    RelitImage before = image_of(*scene, session);
     double error = distance(before, exact) / exact_norm;
     Lighting shown(session.approximation().begin(), session.approximation().end());
     const double all = sum_of(band_l1(*scene, wanted));
     double missing = sum_of(band_l1(*scene, wanted, shown));
     while (step.remaining > 0) {
         step = session.advance_incrementally(budget);
-        const RelitImage after = image_of(scene->view(), session);
+        const RelitImage after = image_of(*scene, session);
         const double next_error = distance(after, exact) / exact_norm;
         const double next_missing = sum_of(band_l1(*scene, wanted, session.approximation()));
         rest.lighting_rise = std::max(rest.lighting_rise, (next_missing - missing) / all);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace relume::net {
 
@@ -30,11 +31,12 @@ void look(const light::Background& background,
 
 }  // namespace
 
-FrameComposer::FrameComposer(const view::ImageView& view, const SkyPixels& sky)
-    : view_(view),
-      sky_(sky),
-      image_(view.image()),
-      background_(sky.size(), Imath::V3f(0)) {}
+FrameComposer::FrameComposer(std::unique_ptr<view::View> view,
+                             std::shared_ptr<const SkyPixels> sky)
+    : view_(std::move(view)),
+      sky_(std::move(sky)),
+      image_(view_->image()),
+      background_(sky_->size(), Imath::V3f(0)) {}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
@@ -42,7 +44,7 @@ void FrameComposer::set_background(const wire::Background& background,
     const bool sees_environment = background.mode == wire::BackgroundMode::environment;
     const Imath::V3f colour = has_alpha_ ? Imath::V3f(0) : Imath::V3f(background.colour);
     const light::Background lookup(rig);
-    const std::span<const SkyLooks> looks = sky_.looks();
+    const std::span<const SkyLooks> looks = sky_->looks();
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, looks.size(), kLooksPerTask),
         [&](const tbb::blocked_range<std::size_t>& range) {
@@ -68,13 +70,13 @@ void FrameComposer::for_each_row(std::span<const float> sums, const Take& take) 
     tbb::parallel_for(std::uint32_t{0}, runs_x * image_.tiles_y(), [&](std::uint32_t run) {
         const std::uint32_t first = run % runs_x * kTilesPerRun;
         const view::TileRun tiles{.row = run / runs_x,
-                                    .first = first,
-                                    .last = std::min(first + kTilesPerRun, image_.tiles_x())};
+                                  .first = first,
+                                  .last = std::min(first + kTilesPerRun, image_.tiles_x())};
         const view::PixelRect pixels = view::pixels_of(image_, tiles);
         const std::size_t row_floats = std::size_t{3} * pixels.width;
         thread_local std::vector<float> rgb;
         rgb.resize(row_floats * pixels.height);
-        view_.write_tiles(sums, tiles, rgb);
+        view_->write_tiles(sums, tiles, rgb);
         for (std::uint32_t y = 0; y < pixels.height; ++y) {
             const std::span<float> row = std::span(rgb).subspan(y * row_floats, row_floats);
             add_background(pixels.left, pixels.top + y, row);
@@ -87,7 +89,7 @@ void FrameComposer::add_background(std::uint32_t x,
                                    std::uint32_t y,
                                    std::span<float> rgb) const {
     const std::uint32_t end = x + static_cast<std::uint32_t>(rgb.size() / 3);
-    for (const SkyRun& run : sky_.runs_of_row(y)) {
+    for (const SkyRun& run : sky_->runs_of_row(y)) {
         const std::uint32_t first = std::max(run.x, x);
         const std::uint32_t last = std::min(run.x + run.count, end);
         if (first >= last) {
@@ -104,6 +106,8 @@ void FrameComposer::add_background(std::uint32_t x,
 void FrameComposer::compose(std::span<const float> sums,
                             std::span<const DisplayTable* const> displays,
                             bool half_planes) {
+    image_ = view_->image();
+    view_->begin_image(sums);
     const std::size_t pixel_count = std::size_t{image_.width} * image_.height;
     codes_.resize(displays.size());
     for (std::vector<std::uint8_t>& codes : codes_) {
@@ -133,7 +137,7 @@ void FrameComposer::put_half(std::size_t index, std::span<const float> rgb) {
         }
         if (has_alpha_) {
             half_.values[3 * pixel_count + index + i] =
-                wire::half_from_linear(sky_.coverage()[index + i]);
+                wire::half_from_linear(sky_->coverage()[index + i]);
         }
     }
 }

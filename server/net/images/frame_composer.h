@@ -6,9 +6,10 @@
 #include "server/light/light_rig.h"
 #include "server/net/images/display_table.h"
 #include "server/net/images/sky_pixels.h"
-#include "server/view/image_view.h"
+#include "server/view/view.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,10 +19,10 @@ namespace relume::net {
 // between stay in the cache. Not thread-safe; spreads its work over oneTBB.
 class FrameComposer {
   public:
-    // Keeps references to both, which are of one scene.
-    FrameComposer(const view::ImageView& view, const SkyPixels& sky);
+    // `sky`: of the view as it is.
+    FrameComposer(std::unique_ptr<view::View> view, std::shared_ptr<const SkyPixels> sky);
 
-    // Of every picture.
+    // Of the picture composed last.
     [[nodiscard]] std::uint32_t width() const { return image_.width; }
     [[nodiscard]] std::uint32_t height() const { return image_.height; }
 
@@ -51,9 +52,9 @@ class FrameComposer {
     // To the pixels of a row from x on.
     void add_background(std::uint32_t x, std::uint32_t y, std::span<float> rgb) const;
 
-    const view::ImageView& view_;
-    const SkyPixels& sky_;
-    const transport::TileGrid image_;
+    const std::unique_ptr<view::View> view_;
+    std::shared_ptr<const SkyPixels> sky_;
+    transport::TileGrid image_;
     bool has_alpha_ = false;
     std::vector<Imath::V3f> background_;  // of every sky pixel, times its visible part
     std::vector<std::vector<std::uint8_t>> codes_;

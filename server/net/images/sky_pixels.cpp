@@ -2,22 +2,18 @@
 
 namespace relume::net {
 
-SkyPixels::SkyPixels(const transport::Transport& transport) {
-    const transport::TileGrid& image = transport.manifest().image();
-    const transport::CameraRecord& camera = transport.manifest().camera;
-    const std::span<const float> coverage_of_slot = transport.coverage();
+SkyPixels::SkyPixels(const view::View& view) {
+    const transport::TileGrid& image = view.image();
+    const transport::CameraRecord& camera = view.camera();
     const float plane_area_of_pixel = 4 * camera.tan_half_width * camera.tan_half_height /
                                       static_cast<float>(image.width) /
                                       static_cast<float>(image.height);
-    coverage_.reserve(std::size_t{image.width} * image.height);
+    coverage_.resize(std::size_t{image.width} * image.height);
+    view.write_coverage(coverage_);
     for (std::uint32_t y = 0; y < image.height; ++y) {
         row_begins_.push_back(runs_.size());
         for (std::uint32_t x = 0; x < image.width; ++x) {
-            const transport::ReceiverPlace receiver = image.place_from_pixel(x, y);
-            const float coverage =
-                coverage_of_slot[std::size_t{receiver.block} * transport::kBlockSize +
-                                 receiver.slot];
-            coverage_.push_back(coverage);
+            const float coverage = coverage_[std::size_t{y} * image.width + x];
             if (coverage >= 1) {
                 continue;
             }

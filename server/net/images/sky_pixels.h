@@ -1,8 +1,8 @@
-// The pixels of a scene through which the environment is seen directly.
+// The pixels of a view through which the environment is seen directly.
 #pragma once
 
-#include "protocol/transport/transport.h"
 #include "server/light/lat_long_kernel.h"
+#include "server/view/view.h"
 
 #include <Imath/ImathVec.h>
 
@@ -28,10 +28,11 @@ struct SkyRun {
     std::uint32_t place = 0;  // of the first one, among all sky pixels
 };
 
-// Immutable; shared by all rooms of a scene.
+// Immutable; rooms of a scene whose view is fixed share one.
 class SkyPixels {
   public:
-    explicit SkyPixels(const transport::Transport& transport);
+    // Of the view as it is.
+    explicit SkyPixels(const view::View& view);
 
     // Row by row from the top.
     [[nodiscard]] std::size_t size() const { return size_; }

@@ -20,20 +20,21 @@ wire::SceneSummary ServedScene::summary() const {
     const basis::CubemapBasis& basis = loaded->projection().basis();
     const bool is_haar = basis.kind() == basis::CubemapBasis::Kind::haar;
     const auto& sampling = loaded->transport().manifest().sampling_error;
-    return {.name = name,
-            .kind = std::string(transport::kKindNames.name(loaded->transport().manifest().kind)),
-            .width = loaded->view().image().width,
-            .height = loaded->view().image().height,
-            .basis = std::string(transport::name_of(basis.kind())),
-            .order = is_haar ? std::nullopt : std::optional(basis.order()),
-            .face_resolution = loaded->face_resolution(),
-            .columns = static_cast<std::uint32_t>(loaded->columns().count()),
-            .channels = loaded->transport().manifest().colour.channels,
-            .bytes = loaded->transport().total_bytes(),
-            .memory_bytes = loaded->bytes(),
-            .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
-            .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
-                      "budget", "display"}};
+    return {
+        .name = name,
+        .kind = std::string(transport::kKindNames.name(loaded->transport().manifest().kind)),
+        .width = loaded->image().width,
+        .height = loaded->image().height,
+        .basis = std::string(transport::name_of(basis.kind())),
+        .order = is_haar ? std::nullopt : std::optional(basis.order()),
+        .face_resolution = loaded->face_resolution(),
+        .columns = static_cast<std::uint32_t>(loaded->columns().count()),
+        .channels = loaded->transport().manifest().colour.channels,
+        .bytes = loaded->transport().total_bytes(),
+        .memory_bytes = loaded->bytes(),
+        .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
+        .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
+                  "budget", "display"}};
 }
 
 namespace {
@@ -91,14 +92,15 @@ void SceneLibrary::open(const fs::path& directory) {
     }
     std::shared_ptr<const transport::Transport> transport =
         transport::Transport::open(directory);
-    SkyPixels sky(*transport);
     const std::uint64_t bytes = transport->total_bytes();
-    std::shared_ptr<const ServedScene> scene = std::make_shared<const ServedScene>(
-        ServedScene{.name = name,
-                    .directory = directory,
-                    .loaded = std::make_shared<const served::Scene>(std::move(transport)),
-                    .sky = std::move(sky)});
-    const transport::TileGrid& image = scene->loaded->view().image();
+    auto loaded = std::make_shared<const served::Scene>(std::move(transport));
+    auto sky = std::make_shared<const SkyPixels>(*loaded->make_view());
+    std::shared_ptr<const ServedScene> scene =
+        std::make_shared<const ServedScene>(ServedScene{.name = name,
+                                                        .directory = directory,
+                                                        .loaded = std::move(loaded),
+                                                        .sky = std::move(sky)});
+    const transport::TileGrid& image = scene->loaded->image();
     spdlog::info(
         "scene_opened name={} width={} height={} face_resolution={} bytes={} memory_bytes={}",
         name, image.width, image.height, scene->loaded->face_resolution(), bytes,

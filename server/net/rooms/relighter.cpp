@@ -76,7 +76,7 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
     : scene_(std::move(scene)),
       metrics_(metrics),
       session_(scene_->loaded->workspace(), relighting::Strategy{}),
-      composer_(std::make_shared<FrameComposer>(scene_->loaded->view(), scene_->sky)),
+      composer_(std::make_shared<FrameComposer>(scene_->loaded->make_view(), scene_->sky)),
       budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,

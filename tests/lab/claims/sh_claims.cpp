@@ -119,7 +119,7 @@ Undershoot undershoot(const LabScene& scene, const std::string& method) {
     (void)contestant->step();
     light::LightCubemap shown;
     contestant->write_radiance(shown);
-    const transport::TileGrid& image = scene.haar->view().image();
+    const transport::TileGrid& image = scene.haar->image();
     std::vector<float> rgb(std::size_t{3} * image.width * image.height);
     contestant->write_image(rgb);
 

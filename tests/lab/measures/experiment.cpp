@@ -29,7 +29,7 @@ class Reference {
         while (!session_.exact()) {
             session_.advance(kAllAtOnce);
         }
-        scene_->view().write_image(session_.sums(), rgb);
+        scene_->write_image(session_.sums(), rgb);
     }
 
   private:
@@ -164,7 +164,7 @@ class Entrant {
 Findings run_experiment(const Experiment& experiment) {
     const served::Scene& scene = *experiment.scene.haar;
     const std::size_t values =
-        kColours * std::size_t{scene.view().image().width} * scene.view().image().height;
+        kColours * std::size_t{scene.image().width} * scene.image().height;
     std::vector<float> reference_image(values);
     std::vector<float> lighting;
     light::LightCubemap radiance(scene.face_resolution());
@@ -183,7 +183,7 @@ Findings run_experiment(const Experiment& experiment) {
         reference.write_image(lighting, reference_image);
         const Truth truth{.light = {.radiance = radiance, .haar = lighting},
                           .image = reference_image,
-                          .width = scene.view().image().width};
+                          .width = scene.image().width};
         const bool keep = std::find(experiment.pictures.begin(), experiment.pictures.end(),
                                     i) != experiment.pictures.end();
         if (keep) {

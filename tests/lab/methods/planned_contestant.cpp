@@ -35,7 +35,7 @@ Step PlannedContestant::step() {
 }
 
 void PlannedContestant::write_image(std::span<float> rgb) const {
-    scene_->view().write_image(images_.total(), rgb);
+    scene_->write_image(images_.total(), rgb);
 }
 
 LightingView PlannedContestant::lighting() const {

@@ -23,7 +23,9 @@ class SessionContestant final : public Contestant {
 
     void set_light(const ImageLight& light) override;
     Step step() override;
-    void write_image(std::span<float> rgb) const override { scene_->view().write_image(session_.sums(), rgb); }
+    void write_image(std::span<float> rgb) const override {
+        scene_->write_image(session_.sums(), rgb);
+    }
     [[nodiscard]] LightingView lighting() const override;
     void write_radiance(light::LightCubemap& out) const override;
 

@@ -32,8 +32,8 @@ std::shared_ptr<const served::Scene> sh_scene(const LabScene& scene, std::uint32
             "{}: basis {}, expected spherical harmonics of order {} or more",
             scene.sh_transport.string(), transport::json_from(found).dump(), order));
     }
-    const transport::TileGrid& image = baked->view().image();
-    const transport::TileGrid& expected = scene.haar->view().image();
+    const transport::TileGrid& image = baked->image();
+    const transport::TileGrid& expected = scene.haar->image();
     if (image.width != expected.width || image.height != expected.height ||
         found.face_resolution() != scene.haar->face_resolution()) {
         throw std::runtime_error(fmt::format(

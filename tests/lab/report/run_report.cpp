@@ -128,7 +128,7 @@ void write_run_report(const fs::path& folder,
         if (!pictures.empty()) {
             const fs::path stem = folder / fmt::format("pictures-{:03}", image);
             draw_picture_sheet(stem, fmt::format("{}, image {}", title, image), pictures,
-                               experiment.scene.haar->view().image().width);
+                               experiment.scene.haar->image().width);
             page.heading(fmt::format("Image {}", image));
             page.png(stem.string() + ".png");
             add_coverage(folder, title, experiment, findings, image, page);

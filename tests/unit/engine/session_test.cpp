@@ -272,9 +272,9 @@ TEST(Session, WritesTheTintedImageInPixelOrder) {
     Session session(tiny.scene()->workspace(), {});
     session.set_target(test::random_lighting(8, 1));
     run_to_rest(session, coefficients(384));
-    const auto& image = tiny.scene()->view().image();
+    const auto& image = tiny.scene()->image();
     std::vector<float> rgb(3UL * image.width * image.height);
-    tiny.scene()->view().write_image(session.sums(), rgb);
+    tiny.scene()->write_image(session.sums(), rgb);
     std::vector<double> receivers(session.sums().begin(), session.sums().end());
     test::receivers_from_sums(receivers);
     for (const auto& [x, y] : {std::pair{0U, 0U}, {39U, 23U}, {17U, 16U}}) {
@@ -287,7 +287,7 @@ TEST(Session, WritesTheTintedImageInPixelOrder) {
         }
     }
     rgb.pop_back();
-    EXPECT_THROW(tiny.scene()->view().write_image(session.sums(), rgb), std::invalid_argument);
+    EXPECT_THROW(tiny.scene()->write_image(session.sums(), rgb), std::invalid_argument);
 }
 
 }  // namespace
