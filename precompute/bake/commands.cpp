@@ -252,9 +252,7 @@ int run_relight(const Arguments& arguments) {
                 image.values.push_back(
                     static_cast<float>(plane[std::size_t{y} * relit.width + x]));
             }
-            const transport::ReceiverPlace at = manifest.image().place_from_pixel(x, y);
-            image.values.push_back(
-                transport->coverage()[std::size_t{at.block} * transport::kBlockSize + at.slot]);
+            image.values.push_back(relit.coverage[std::size_t{y} * relit.width + x]);
         }
     }
     write_exr(arguments.image, image);

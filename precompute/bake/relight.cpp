@@ -1,6 +1,7 @@
 #include "precompute/bake/relight.h"
 
 #include "precompute/bake/base/error.h"
+#include "precompute/bake/mesh/surface_image.h"
 #include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 
 namespace relume::bake {
 namespace {
@@ -70,9 +72,55 @@ void to_receivers(transport::BlockBasis basis, std::vector<double>& sums) {
     }
 }
 
+DenseImage empty_image(const transport::TileGrid& size) {
+    DenseImage image{.width = size.width, .height = size.height, .rgb = {}, .coverage = {}};
+    const std::size_t pixels = std::size_t{size.width} * size.height;
+    for (auto& plane : image.rgb) {
+        plane.resize(pixels);
+    }
+    image.coverage.resize(pixels);
+    return image;
+}
+
+DenseImage image_of_tiles(const transport::Transport& transport,
+                          std::span<const double> values) {
+    const transport::TileGrid& size = transport.manifest().image();
+    DenseImage image = empty_image(size);
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+            const transport::ReceiverPlace at = size.place_from_pixel(x, y);
+            const std::size_t pixel = std::size_t{y} * size.width + x;
+            for (std::size_t c = 0; c < 3; ++c) {
+                image.rgb[c][pixel] =
+                    values[(std::size_t{at.block} * 3 + c) * kBlockSize + at.slot];
+            }
+            image.coverage[pixel] =
+                transport.coverage()[std::size_t{at.block} * kBlockSize + at.slot];
+        }
+    }
+    return image;
+}
+
+DenseImage image_of_surface(const transport::Transport& transport,
+                            std::span<const double> values) {
+    constexpr std::uint32_t kRaysAlongPixel = 4;
+    const transport::Manifest& manifest = transport.manifest();
+    const SurfaceImage seen =
+        view_surface(transport, values, manifest.camera, manifest.mesh->view, kRaysAlongPixel);
+    DenseImage image = empty_image(seen.size);
+    for (std::size_t pixel = 0; pixel < seen.rgb.size(); ++pixel) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            image.rgb[c][pixel] = seen.rgb[pixel][static_cast<int>(c)];
+        }
+        image.coverage[pixel] = seen.coverage[pixel];
+    }
+    return image;
+}
+
 }  // namespace
 
-DenseImage relight(const transport::Transport& transport, const CubemapLight& light) {
+std::vector<double> relit_receivers(const transport::Transport& transport,
+                                    const CubemapLight& light) {
     const transport::Manifest& manifest = transport.manifest();
     const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
     const std::size_t texels = basis::texel_count(manifest.signal_basis.face_resolution());
@@ -85,25 +133,22 @@ DenseImage relight(const transport::Transport& transport, const CubemapLight& li
         coefficients[c].resize(transport.column_count());
         projection->project_radiance(light[c], coefficients[c]);
     }
-    std::vector<double> pixels(std::size_t{manifest.block_count()} * 3 * kBlockSize);
+    std::vector<double> values(std::size_t{manifest.block_count()} * 3 * kBlockSize);
     tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {
-        add_shard(transport, transport.shards()[i], coefficients, pixels);
+        add_shard(transport, transport.shards()[i], coefficients, values);
     });
-    to_receivers(manifest.block_basis, pixels);
-    DenseImage image{
-        .width = manifest.image().width, .height = manifest.image().height, .rgb = {}};
-    for (std::size_t c = 0; c < 3; ++c) {
-        image.rgb[c].resize(std::size_t{image.width} * image.height);
-        for (std::uint32_t y = 0; y < image.height; ++y) {
-            for (std::uint32_t x = 0; x < image.width; ++x) {
-                const transport::ReceiverPlace at = manifest.image().place_from_pixel(x, y);
-                const std::size_t i = (std::size_t{at.block} * 3 + c) * kBlockSize + at.slot;
-                image.rgb[c][std::size_t{y} * image.width + x] =
-                    pixels[i] * transport.tint()[i];
-            }
-        }
+    to_receivers(manifest.block_basis, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] *= double{transport.tint()[i]};
     }
-    return image;
+    return values;
+}
+
+DenseImage relight(const transport::Transport& transport, const CubemapLight& light) {
+    const std::vector<double> values = relit_receivers(transport, light);
+    return transport.manifest().kind == transport::Kind::mesh
+               ? image_of_surface(transport, values)
+               : image_of_tiles(transport, values);
 }
 
 CubemapLight read_cubemap_strip(const std::filesystem::path& path,

@@ -18,9 +18,16 @@ struct DenseImage {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::array<std::vector<double>, 3> rgb;  // height·width, linear, premultiplied by coverage
+    std::vector<float> coverage;             // height·width, in [0, 1]
 };
 
-// Throws BakeError when the light's size is not the transport's.
+// What every receiver has of the light, tint applied: [blocks][3][256]. Throws BakeError when
+// the light's size is not the transport's.
+[[nodiscard]] std::vector<double> relit_receivers(const transport::Transport& transport,
+                                                  const CubemapLight& light);
+
+// The image of the transport's camera; of kind `mesh` at the size that the manifest names, with
+// sixteen rays a pixel.
 [[nodiscard]] DenseImage relight(const transport::Transport& transport,
                                  const CubemapLight& light);
 

@@ -49,27 +49,39 @@ float displayed(float x) {
     return film <= 0.0031308F ? 12.92F * film : 1.055F * std::pow(film, 1 / 2.4F) - 0.055F;
 }
 
-void write_pictures(const std::filesystem::path& directory, const ViewImages& view) {
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw BakeError(fmt::format("{}: cannot create: {}", folder.string(), error.message()));
+    }
+}
+
+}  // namespace
+
+void write_pictures(const std::filesystem::path& directory) {
+    make_folder(directory / "view");
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
     const DenseImage relit = relight(
         *transport, thumbnail_light(manifest.signal_basis.face_resolution(), manifest.camera));
     constexpr float kBackdrop = 0.12F;
     std::vector<float> pixels;
-    for (std::size_t i = 0; i < view.coverage.size(); ++i) {
+    for (std::size_t i = 0; i < relit.coverage.size(); ++i) {
         for (const auto& plane : relit.rgb) {
-            pixels.push_back(static_cast<float>(plane[i]) + (1 - view.coverage[i]) * kBackdrop);
+            pixels.push_back(static_cast<float>(plane[i]) +
+                             (1 - relit.coverage[i]) * kBackdrop);
         }
     }
     const float scale =
         std::min(1.0F, static_cast<float>(kThumbnailSide) /
-                           static_cast<float>(std::max(view.width, view.height)));
+                           static_cast<float>(std::max(relit.width, relit.height)));
     const auto scaled = [scale](std::uint32_t side) {
         return std::max(
             1U, static_cast<std::uint32_t>(std::lround(scale * static_cast<float>(side))));
     };
-    FloatImage image{view.width, view.height, 3, std::move(pixels)};
-    FloatImage small = resized(image, scaled(view.width), scaled(view.height));
+    FloatImage image{relit.width, relit.height, 3, std::move(pixels)};
+    FloatImage small = resized(image, scaled(relit.width), scaled(relit.height));
     for (FloatImage* shown : {&image, &small}) {
         for (float& value : shown->values) {
             value = displayed(std::max(value, 0.0F));
@@ -78,8 +90,6 @@ void write_pictures(const std::filesystem::path& directory, const ViewImages& vi
     write_png(directory / "view" / "picture.png", image);
     write_png(directory / "view" / "thumbnail.png", small);
 }
-
-}  // namespace
 
 ViewImages view_images(const PixelReceivers& pixels, double unit) {
     const auto& [width, height] = pixels.image();
@@ -102,19 +112,14 @@ ViewImages view_images(const PixelReceivers& pixels, double unit) {
 }
 
 void write_view_files(const std::filesystem::path& directory, const ViewImages& view) {
-    std::error_code error;
-    std::filesystem::create_directories(directory / "view", error);
-    if (error) {
-        throw BakeError(fmt::format("{}: cannot create: {}", (directory / "view").string(),
-                                    error.message()));
-    }
+    make_folder(directory / "view");
     std::vector<float> albedo;
     for (const Imath::V3f& colour : view.albedo) {
         albedo.insert(albedo.end(), {colour.x, colour.y, colour.z});
     }
     write_exr(directory / "view" / "albedo.exr", {view.width, view.height, 3, albedo});
     write_exr(directory / "view" / "depth.exr", {view.width, view.height, 1, view.depth});
-    write_pictures(directory, view);
+    write_pictures(directory);
 }
 
 }  // namespace relume::bake

@@ -23,9 +23,12 @@ struct ViewImages {
 // `unit`: of the scene's frame, in world units.
 [[nodiscard]] ViewImages view_images(const PixelReceivers& pixels, double unit);
 
-// Writes view/albedo.exr, view/depth.exr, and view/picture.png with its small copy
-// view/thumbnail.png, relit from the finished transport in `directory` under a light of our
-// own. Throws BakeError, files::FileError.
+// Writes view/picture.png and its small copy view/thumbnail.png, relit from the finished
+// transport in `directory`, of any kind, under a light of our own. Throws BakeError,
+// files::FileError.
+void write_pictures(const std::filesystem::path& directory);
+
+// The same, and view/albedo.exr and view/depth.exr.
 void write_view_files(const std::filesystem::path& directory, const ViewImages& view);
 
 }  // namespace relume::bake

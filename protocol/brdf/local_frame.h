@@ -31,8 +31,12 @@ struct Frame {
     }
 };
 
-// `n` is a unit vector. Orthonormal and right-handed to rounding, which within 1e-3 of n = ±r is
-// up to 1e-3.
+// An interpolated normal may face away from the viewer where the surface does not. A view then
+// takes a direction whose z is this, so that the rim of a round object is not black.
+inline constexpr float kLeastViewCosine = 1e-3F;
+
+// `n` is a unit vector. Orthonormal and right-handed to rounding, which within 1e-3 of n = ±r
+// is up to 1e-3.
 [[nodiscard]] inline Frame local_frame(const Imath::V3f& n) {
     constexpr float kX = 0.48F;
     constexpr float kY = 0.60F;

@@ -125,9 +125,8 @@ ColumnSummary summarise_columns(const Manifest& manifest,
     ColumnSummary summary;
     summary.energies.resize(columns * kColours);
     summary.column_bytes.resize(columns);
-    const std::size_t receivers = std::size_t{manifest.block_count()} * kBlockSize;
-    const SketchPlan stating(manifest.stating_rows, kStatingSeed, receivers);
-    const SketchPlan choosing(manifest.choosing_rows, kChoosingSeed, receivers);
+    const SketchPlan stating(manifest.sketch_strata(manifest.stating_rows), kStatingSeed);
+    const SketchPlan choosing(manifest.sketch_strata(manifest.choosing_rows), kChoosingSeed);
     summary.stating = stating.empty_table(columns);
     summary.choosing = choosing.empty_table(columns);
     constexpr std::size_t kColumnsPerTask = 64;

@@ -10,6 +10,7 @@
 #include "protocol/transport/format.h"
 #include "protocol/transport/mesh_section.h"
 #include "protocol/transport/receiver_layout.h"
+#include "protocol/transport/sketch.h"
 
 #include <Imath/ImathVec.h>
 #include <nlohmann/json.hpp>
@@ -86,6 +87,11 @@ struct Manifest {
         return static_cast<std::uint32_t>(signal_basis.coefficient_count());
     }
     [[nodiscard]] std::uint32_t block_count() const { return layout.block_count(); }
+    // Of a sketch of so many rows.
+    [[nodiscard]] SketchStrata sketch_strata(std::uint32_t rows) const {
+        return kind == Kind::mesh ? SketchStrata::several(rows, block_count())
+                                  : SketchStrata{rows, block_count()};
+    }
     // Of kind `image`: how its pixels lie in tiles.
     [[nodiscard]] const TileGrid& image() const { return layout.tiles(); }
 };

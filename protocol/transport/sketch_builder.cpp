@@ -8,19 +8,23 @@
 
 namespace relume::transport {
 
-SketchPlan::SketchPlan(std::uint32_t rows, std::uint64_t seed, std::size_t receivers)
-    : rows_(rows), places_(receivers) {
-    for (std::size_t p = 0; p < receivers; ++p) {
+SketchPlan::SketchPlan(const SketchStrata& strata, std::uint64_t seed)
+    : strata_(strata), places_(std::size_t{strata.blocks} * kBlockSize) {
+    for (std::size_t p = 0; p < places_.size(); ++p) {
         const std::uint64_t bits = mix_bits(mix_bits(seed) ^ p);
-        places_[p] = {.row = static_cast<std::uint16_t>((bits >> 1) % rows_),
+        const std::uint32_t stratum =
+            strata.stratum_of_block(static_cast<std::uint32_t>(p / kBlockSize));
+        const std::uint64_t row =
+            strata.first_row(stratum) + (bits >> 1) % strata.row_count(stratum);
+        places_[p] = {.row = static_cast<std::uint16_t>(row),
                       .sign = (bits & 1U) != 0 ? 1.0F : -1.0F};
     }
 }
 
 SketchTable SketchPlan::empty_table(std::size_t columns) const {
-    return {.rows = rows_,
+    return {.strata = strata_,
             .scales = std::vector<float>(columns * kColours),
-            .values = std::vector<std::int8_t>(columns * kColours * rows_)};
+            .values = std::vector<std::int8_t>(columns * kColours * rows())};
 }
 
 ColumnSketch::ColumnSketch(const SketchPlan& plan)

@@ -12,11 +12,11 @@ namespace relume::transport {
 
 // What a Sketch reads.
 struct SketchTable {
-    std::uint32_t rows = 0;
+    SketchStrata strata;
     std::vector<float> scales;        // [N][3]
     std::vector<std::int8_t> values;  // [N][3][rows]
 
-    [[nodiscard]] Sketch view() const { return {rows, scales, values}; }
+    [[nodiscard]] Sketch view() const { return {strata, scales, values}; }
 };
 
 // A count sketch [Charikar02]: every receiver adds to one of R rows with one sign. So a column
@@ -25,11 +25,11 @@ struct SketchTable {
 // matrix. Immutable; safe to share between threads.
 class SketchPlan {
   public:
-    // Row and sign of receiver p follow from seed and p alone; seeds that differ give
-    // independent ones. 1 ≤ rows ≤ 65536.
-    SketchPlan(std::uint32_t rows, std::uint64_t seed, std::size_t receivers);
+    // Receivers are the 256 slots of every block. Row and sign of a receiver follow from seed,
+    // strata and its number alone; seeds that differ give independent ones. At most 65536 rows.
+    SketchPlan(const SketchStrata& strata, std::uint64_t seed);
 
-    [[nodiscard]] std::uint32_t rows() const { return rows_; }
+    [[nodiscard]] std::uint32_t rows() const { return strata_.rows; }
     [[nodiscard]] SketchTable empty_table(std::size_t columns) const;
 
   private:
@@ -39,7 +39,7 @@ class SketchPlan {
         float sign = 1;
     };
 
-    std::uint32_t rows_;
+    SketchStrata strata_;
     std::vector<Place> places_;
 };
 

@@ -103,6 +103,7 @@ std::shared_ptr<const Transport> Transport::open(const std::filesystem::path& di
 Transport::Transport(const std::filesystem::path& directory)
     : directory_(directory), manifest_(read_manifest(directory / "manifest.json")) {
     open_tables();
+    open_surface();
     open_shards();
     check_columns();
 }
@@ -131,7 +132,7 @@ void Transport::open_tables() {
     TableReader sketch_table = reader(2, manifest_.sketch);
     const auto take_sketch = [&](std::uint32_t rows, const char* scale) {
         const auto scales = sketch_table.take_floats(columns * kColours, scale);
-        return Sketch(rows, scales, sketch_table.take<std::int8_t>(columns * kColours * rows));
+        return Sketch(manifest_.sketch_strata(rows), scales, sketch_table.take<std::int8_t>(columns * kColours * rows));
     };
     stating_sketch_ = take_sketch(manifest_.stating_rows, "scale of stating rows");
     choosing_sketch_ = take_sketch(manifest_.choosing_rows, "scale of choosing rows");
@@ -140,6 +141,23 @@ void Transport::open_tables() {
     for (const std::uint32_t bytes : column_bytes_) {
         total_bytes_ += bytes;
     }
+}
+
+void Transport::open_surface() {
+    if (!manifest_.mesh) {
+        return;
+    }
+    const FileBytes mesh = open_table(directory_, manifest_.mesh->mesh);
+    const FileBytes brdfs = open_table(directory_, manifest_.mesh->brdfs);
+    const FileBytes textures = open_table(directory_, manifest_.mesh->textures);
+    const auto file = [this](const FileRecord& record, const FileBytes& bytes) {
+        return SurfaceFiles::File{.name = (directory_ / record.file).string(),
+                                  .bytes = bytes.bytes()};
+    };
+    surface_ =
+        surface_from_files(manifest_, {.mesh = file(manifest_.mesh->mesh, mesh),
+                                       .brdfs = file(manifest_.mesh->brdfs, brdfs),
+                                       .textures = file(manifest_.mesh->textures, textures)});
 }
 
 void Transport::open_shards() {

@@ -5,10 +5,12 @@
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/shard_reader.h"
 #include "protocol/transport/sketch.h"
+#include "protocol/transport/surface.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,6 +51,9 @@ class Transport {
     // [blocks][3][256].
     [[nodiscard]] std::span<const float> tint() const { return tint_; }
 
+    // Of kind `mesh`; none of other kinds.
+    [[nodiscard]] const std::optional<Surface>& surface() const { return surface_; }
+
     // Two sketches of independent rows: by one a server chooses what to do, by the other it
     // states its error. An estimate that has been minimised over is biased.
     [[nodiscard]] const Sketch& stating_sketch() const { return stating_sketch_; }
@@ -57,12 +62,14 @@ class Transport {
   private:
     explicit Transport(const std::filesystem::path& directory);
     void open_tables();
+    void open_surface();
     void open_shards();
     void check_columns() const;
 
     std::filesystem::path directory_;
     Manifest manifest_;
     std::vector<FileBytes> tables_;
+    std::optional<Surface> surface_;
     std::vector<ShardReader> shards_;
     std::span<const float> steps_;
     std::span<const float> energies_;

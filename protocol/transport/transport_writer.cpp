@@ -1,6 +1,7 @@
 #include "protocol/transport/transport_writer.h"
 
 #include "protocol/base/files/atomic_file.h"
+#include "protocol/brdf/brdf_file.h"
 #include "protocol/transport/checksum.h"
 #include "protocol/transport/column_summary.h"
 #include "protocol/transport/error.h"
@@ -99,6 +100,14 @@ void TransportWriter::write_shard(std::uint32_t shard,
                             .channels = manifest_.colour.channels,
                             .fingerprint = manifest_.fingerprint},
                            blocks);
+}
+
+void TransportWriter::write_surface(const Surface& surface) {
+    MeshSection& mesh = manifest_.mesh.value();
+    mesh.mesh = write_table(directory_, "mesh.bin", {bytes_from_surface_mesh(surface.mesh)});
+    mesh.brdfs = write_table(directory_, "brdfs.bin", {brdf::bytes_from_brdfs(surface.brdfs)});
+    mesh.textures =
+        write_table(directory_, "textures.bin", {bytes_from_textures(surface.textures)});
 }
 
 void TransportWriter::finish(const BakedTables& tables, const nlohmann::json& measured) {

@@ -5,6 +5,7 @@
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/shard_reader.h"
 #include "protocol/transport/shard_writer.h"
+#include "protocol/transport/surface.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -56,6 +57,9 @@ class TransportWriter {
 
     // Replaces what the manifest says of it: it may be known only when all shards are baked.
     void state_sampling_error(const SamplingError& error) { manifest_.sampling_error = error; }
+
+    // Of kind `mesh`, before finish(): writes mesh.bin, brdfs.bin and textures.bin.
+    void write_surface(const Surface& surface);
 
     // Reads all shards back, sums column energies, bytes and the sketches from what is
     // *stored*, writes the tables and, last of all, the manifest with `measured` and cell

@@ -13,8 +13,9 @@ double ErrorEstimate::relative_l2() const {
     for (std::size_t r = 0; r < target_.size(); ++r) {
         const double target = target_.sum(r);
         const double difference = target - approximation_.sum(r);
-        squared_difference += difference * difference;
-        squared_norm += target * target;
+        const double weight = target_.row_weight(r);
+        squared_difference += weight * difference * difference;
+        squared_norm += weight * target * target;
     }
     if (squared_norm == 0) {
         return squared_difference == 0 ? 0 : 1;

@@ -29,10 +29,17 @@ class ErrorEstimate {
         approximation_ = target_;
     }
 
+    // How much the receivers of each block count in the image, [blocks]: of a view that sees
+    // some of them alone, or some larger than others. 1 at first.
+    void set_block_weights(std::span<const float> weights) {
+        target_.set_block_weights(weights);
+        approximation_.set_block_weights(weights);
+    }
+
     // 0 when both are equal; 1 when nothing of the target is shown. When the target is black,
     // 0 if the approximation is too, else 1.
     [[nodiscard]] double relative_l2() const;
-    // Estimated ‖T L̃‖ over all pixels and colours, tint applied.
+    // Estimated ‖T L̃‖ over all receivers and colours, tint applied, whatever their weights.
     [[nodiscard]] double shown_norm() const;
 
   private:

@@ -57,6 +57,14 @@ class Session {
     // Takes effect with the next step. The approximation is kept.
     void set_strategy(relighting::Strategy strategy) { strategy_ = strategy; }
 
+    // How much the receivers of each block count in the image, [blocks], not negative and not
+    // all zero: by it errors are predicted and stated. All count alike at first. It changes no
+    // image that is exact.
+    void set_block_weights(std::span<const float> weights) {
+        error_.set_block_weights(weights);
+        planner_.set_block_weights(weights);
+    }
+
     // One image's worth of work.
     // - After a new target: the method's resets, then the most important differences between
     //   target and approximation within the budget.

@@ -62,8 +62,23 @@ BandSketches::BandSketches(const ColumnTable& table, const Sketch& sketch)
     : table_(&table),
       sketch_(&sketch),
       size_(kColours * std::size_t{sketch.rows()}),
+      row_weights_(sketch.rows(), 1.0F),
       bands_(table.band_count() * size_),
       partial_(table.band_chunks().size() * size_) {}
+
+void BandSketches::set_block_weights(std::span<const float> weights) {
+    const transport::SketchStrata& strata = sketch_->strata();
+    std::vector<double> sums(strata.strata);
+    std::vector<double> counts(strata.strata);
+    for (std::uint32_t block = 0; block < weights.size(); ++block) {
+        sums[strata.stratum_of_block(block)] += double{weights[block]};
+        counts[strata.stratum_of_block(block)] += 1;
+    }
+    for (std::uint32_t i = 0; i < strata.strata; ++i) {
+        std::fill_n(&row_weights_[strata.first_row(i)], strata.row_count(i),
+                    static_cast<float>(sums[i] / counts[i]));
+    }
+}
 
 void BandSketches::set(const SignificantColumns& significant) {
     const std::span<const BandChunk> chunks = table_->band_chunks();

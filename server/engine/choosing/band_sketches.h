@@ -32,10 +32,20 @@ class BandSketches {
     // Number r, below size(), summed over all bands.
     [[nodiscard]] double sum(std::size_t r) const;
 
+    // Of every block, [blocks], not negative: how much its receivers count. 1 at first. A row
+    // takes the mean of the blocks of its stratum. Weights change no sum; who adds squares of
+    // numbers up multiplies them by the weight of the row.
+    void set_block_weights(std::span<const float> weights);
+    // Of the row of number r.
+    [[nodiscard]] double row_weight(std::size_t r) const {
+        return double{row_weights_[r % row_weights_.size()]};
+    }
+
   private:
     const ColumnTable* table_;
     const transport::Sketch* sketch_;
     std::size_t size_;           // 3·rows
+    std::vector<float> row_weights_;  // [rows]
     std::vector<double> bands_;  // [bands][3][rows]
     std::vector<float>
         partial_;  // [chunks][3][rows], kept so that the next pass need not allocate

@@ -125,7 +125,7 @@ double Guard::predicted_error(const Plan& plan) const {
             residual += target_.band(band)[i];
             residual -= plan.resets(band) ? 0 : approximation_.band(band)[i];
         }
-        squared += residual * residual;
+        squared += target_.row_weight(i) * residual * residual;
     }
     return std::sqrt(squared);
 }

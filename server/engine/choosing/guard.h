@@ -54,6 +54,12 @@ class Guard {
     // Estimated ‖T (L − L̃)‖ at the last decision, before any plan.
     [[nodiscard]] double standing_error() const { return standing_error_; }
 
+    // As ErrorEstimate::set_block_weights.
+    void set_block_weights(std::span<const float> weights) {
+        target_.set_block_weights(weights);
+        approximation_.set_block_weights(weights);
+    }
+
     // Has to be called when a plan, of whatever origin, has been carried out on L̃.
     void apply(const Plan& plan);
     // L̃ has been set to this target as a whole.

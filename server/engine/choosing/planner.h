@@ -29,6 +29,9 @@ class Planner {
                                     const relighting::Strategy& strategy,
                                     const SelectionBudget& budget);
 
+    // As ErrorEstimate::set_block_weights.
+    void set_block_weights(std::span<const float> weights) { guard_.set_block_weights(weights); }
+
     // The plan has been carried out on L̃.
     void apply(const Plan& plan) { guard_.apply(plan); }
     // L̃ has been set to this target as a whole.

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -97,9 +98,10 @@ struct Tables {
     explicit Tables(const Lobes& lobes)
         : energies(kColours * std::size_t{kBins}),
           bytes(kBins, kReceivers * kColours * sizeof(float)) {
-        constexpr std::uint32_t kRows = 256;
-        const transport::SketchPlan stating_plan(kRows, 1, kReceivers);
-        const transport::SketchPlan choosing_plan(kRows, 2, kReceivers);
+        // Every cluster has rows of its own.
+        const auto strata = transport::SketchStrata::several(256, kClusters);
+        const transport::SketchPlan stating_plan(strata, 1);
+        const transport::SketchPlan choosing_plan(strata, 2);
         stating = stating_plan.empty_table(kBins);
         choosing = choosing_plan.empty_table(kBins);
         transport::ColumnSketch stating_sketch(stating_plan);
@@ -112,8 +114,10 @@ struct Tables {
                 for (std::uint32_t p = 0; p < kReceivers; ++p) {
                     const double value = lobes.value(p, c, j);
                     energy += value * value;
-                    stating_sketch.add(c, p, value);
-                    choosing_sketch.add(c, p, value);
+                    const std::uint32_t place =
+                        p / kClusterSize * kBlockSize + p % kClusterSize;
+                    stating_sketch.add(c, place, value);
+                    choosing_sketch.add(c, place, value);
                 }
                 energies[j * kColours + c] = static_cast<float>(energy);
             }
@@ -217,12 +221,14 @@ class SyntheticKind : public testing::Test {
         return signal;
     }
 
-    // ‖sums − T·signal‖ / ‖T·signal‖, T·signal in double precision.
+    // ‖sums − T·signal‖ / ‖T·signal‖ over the receivers of the first clusters, T·signal in
+    // double precision.
     [[nodiscard]] double error(std::span<const float> sums,
-                               std::span<const float> signal) const {
+                               std::span<const float> signal,
+                               std::uint32_t clusters = kClusters) const {
         double difference = 0;
         double norm = 0;
-        for (std::uint32_t p = 0; p < kReceivers; ++p) {
+        for (std::uint32_t p = 0; p < clusters * kClusterSize; ++p) {
             for (std::size_t c = 0; c < kColours; ++c) {
                 double wanted = 0;
                 for (std::uint32_t j = 0; j < kBins; ++j) {
@@ -300,6 +306,29 @@ TEST_F(SyntheticKind, StatesTheErrorOfPbiWhileTheSignalMoves) {
         EXPECT_GT(step.stated_error, truth / 2) << image;
     }
     run_to_rest(relit, kTerms);
+}
+
+// A view that sees one cluster alone is told of its error, which is not that of all. PBI chooses
+// by the signal, so that both sessions show the same.
+TEST_F(SyntheticKind, StatesTheErrorOfTheBlocksThatCount) {
+    Session seen = session(relighting::Method::pbi);
+    Session whole = session(relighting::Method::pbi);
+    seen.set_block_weights(std::array{0.25F, 0.0F, 0.0F, 0.0F, 0.0F});
+    double missed_by_seen = 0;
+    double missed_by_whole = 0;
+    for (int image = 0; image < 40; ++image) {
+        const std::vector<float> signal = peak_at(30 + 5.0 * image);
+        seen.set_target(signal);
+        whole.set_target(signal);
+        const double stated = seen.advance(kTerms).stated_error;
+        const double of_all = whole.advance(kTerms).stated_error;
+        const double truth = error(seen.sums(), signal, 1);
+        EXPECT_LT(stated, 2 * truth) << image;
+        EXPECT_GT(stated, truth / 2) << image;
+        missed_by_seen += std::abs(stated - truth);
+        missed_by_whole += std::abs(of_all - truth);
+    }
+    EXPECT_LT(missed_by_seen, 0.8 * missed_by_whole);
 }
 
 TEST_F(SyntheticKind, GuardedIsNoFurtherThanBiFromWhatIsAsked) {
