@@ -7,27 +7,53 @@
 
 namespace relume::bake {
 
-std::vector<float> natural_light(const basis::CubemapBasis& basis, std::uint64_t seed) {
-    const std::size_t count = basis.coefficient_count();
-    std::vector<float> light(count);
+namespace {
+
+float natural_falloff(const basis::CubemapBasis& basis, std::size_t coefficient) {
+    const std::uint32_t band = basis.band_from_coefficient(coefficient);
+    return std::exp2(-kNaturalFalloff * basis.octave_from_band(band));
+}
+
+// That of the noise in band 0. `constant` are the coefficients that have none.
+float natural_amplitude(const basis::CubemapBasis& basis, const std::vector<float>& constant) {
     float constant_energy = 0;
-    for (const auto& [index, value] : basis.constant_light()) {
-        light[index] = value;
-        constant_energy += value * value;
-    }
     std::vector<float> noise_in_band(basis.band_count());
-    for (std::size_t j = 0; j < count; ++j) {
-        noise_in_band[basis.band_from_coefficient(j)] += light[j] == 0 ? 1.0F : 0.0F;
+    for (std::size_t j = 0; j < constant.size(); ++j) {
+        constant_energy += constant[j] * constant[j];
+        noise_in_band[basis.band_from_coefficient(j)] += constant[j] == 0 ? 1.0F : 0.0F;
     }
-    const auto falloff = [&](std::uint32_t band) {
-        return std::exp2(-kNaturalFalloff * basis.octave_from_band(band));
-    };
     float energy = 0;
     for (std::uint32_t band = 0; band < basis.band_count(); ++band) {
-        energy += noise_in_band[band] * (falloff(band) * falloff(band));
+        const float falloff = std::exp2(-kNaturalFalloff * basis.octave_from_band(band));
+        energy += noise_in_band[band] * (falloff * falloff);
     }
-    const float amplitude = energy > 0 ? std::sqrt(constant_energy / energy) : 0.0F;
-    for (std::size_t j = 0; j < count; ++j) {
+    return energy > 0 ? std::sqrt(constant_energy / energy) : 0.0F;
+}
+
+std::vector<float> constant_coefficients(const basis::CubemapBasis& basis) {
+    std::vector<float> constant(basis.coefficient_count());
+    for (const auto& [index, value] : basis.constant_light()) {
+        constant[index] = value;
+    }
+    return constant;
+}
+
+}  // namespace
+
+std::vector<float> natural_deviations(const basis::CubemapBasis& basis) {
+    const std::vector<float> constant = constant_coefficients(basis);
+    const float amplitude = natural_amplitude(basis, constant);
+    std::vector<float> deviations(constant.size());
+    for (std::size_t j = 0; j < deviations.size(); ++j) {
+        deviations[j] = constant[j] != 0 ? 0.0F : amplitude * natural_falloff(basis, j);
+    }
+    return deviations;
+}
+
+std::vector<float> natural_light(const basis::CubemapBasis& basis, std::uint64_t seed) {
+    std::vector<float> light = constant_coefficients(basis);
+    const float amplitude = natural_amplitude(basis, light);
+    for (std::size_t j = 0; j < light.size(); ++j) {
         if (light[j] != 0) {
             continue;
         }
@@ -35,8 +61,7 @@ std::vector<float> natural_light(const basis::CubemapBasis& basis, std::uint64_t
         // Box and Muller's normal variate.
         const float radius = std::sqrt(-2.0F * std::log(1.0F - transport::unit_float(bits)));
         const float angle = 2 * std::numbers::pi_v<float> * transport::unit_float(bits << 32U);
-        light[j] =
-            amplitude * radius * std::cos(angle) * falloff(basis.band_from_coefficient(j));
+        light[j] = amplitude * radius * std::cos(angle) * natural_falloff(basis, j);
     }
     return light;
 }

@@ -20,6 +20,8 @@ inline constexpr float kNaturalFalloff = 0.25F;
 // - Sun: one texel of the upper half of the world holds all the energy.
 [[nodiscard]] std::vector<float> natural_light(const basis::CubemapBasis& basis,
                                                std::uint64_t seed);
+// How far the coefficients of natural light stray: 0 where its constant has one.
+[[nodiscard]] std::vector<float> natural_deviations(const basis::CubemapBasis& basis);
 [[nodiscard]] std::vector<float> sun_light(const basis::CubemapProjection& projection,
                                            std::uint64_t seed);
 

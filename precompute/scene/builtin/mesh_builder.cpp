@@ -133,8 +133,8 @@ void MeshBuilder::add_grid(
         for (std::uint32_t j = 0; j < column_cells; ++j) {
             const std::uint32_t i1 = (i + 1) % rows;
             const std::uint32_t j1 = (j + 1) % columns;
-            add_triangle(i * columns + j, i1 * columns + j, i1 * columns + j1);
-            add_triangle(i * columns + j, i1 * columns + j1, i * columns + j1);
+            add_triangle(i * columns + j, i1 * columns + j1, i1 * columns + j);
+            add_triangle(i * columns + j, i * columns + j1, i1 * columns + j1);
         }
     }
     for (std::uint32_t i = 0; i < rows; ++i) {

@@ -54,6 +54,7 @@ class MeshBuilder {
     void add_sphere(const Imath::V3f& centre, float radius, std::uint32_t segments);
     // Points position(i, j), 0 ≤ i < rows, 0 ≤ j < columns, joined to a smooth surface; a
     // closed direction joins its last to its first. Coinciding neighbours (poles) are allowed.
+    // Seen from the side from which columns run to the right where rows run upwards.
     void add_grid(std::uint32_t rows,
                   std::uint32_t columns,
                   Closing along_rows,
