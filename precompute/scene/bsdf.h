@@ -50,6 +50,13 @@ struct RgbPlanes {
     std::span<float> r, g, b;
 };
 
+// What the colours of a model are multiplied onto; planes of equal length.
+struct LobePlanes {
+    std::span<float> diffuse;   // × Bsdf::diffuse_colour()
+    std::span<float> specular;  // × Bsdf::specular_colour()
+    std::span<float> grazing;   // × Bsdf::grazing()
+};
+
 class Bsdf {
   public:
     // Colours are clamped to [0, 1].
@@ -93,6 +100,11 @@ class Bsdf {
     void evaluate_times_cosine(const Imath::V3f& wo,
                                const Directions& wi,
                                const RgbPlanes& out) const;
+    // The same with the colours taken out: f·cos θi is the sum of colour × plane, to rounding.
+    // Lambert leaves the last two at zero, Phong the last.
+    void evaluate_lobes_times_cosine(const Imath::V3f& wo,
+                                     const Directions& wi,
+                                     const LobePlanes& out) const;
     // `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction in it.
     [[nodiscard]] BsdfSample sample(const Imath::V3f& wo,
                                     float u_lobe,

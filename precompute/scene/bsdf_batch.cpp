@@ -1,4 +1,4 @@
-// Bsdf::evaluate_times_cosine: plain loops over planes, compiled so that they vectorise (see
+// Bsdf for many directions: plain loops over planes, compiled so that they vectorise (see
 // CMakeLists.txt). Chunks keep the temporaries in L1.
 #include "precompute/scene/bsdf.h"
 
@@ -18,7 +18,7 @@ using Chunk = std::array<float, kChunk>;
 struct Shares {
     Chunk diffuse;
     Chunk specular;
-    Chunk white;
+    Chunk grazing;
 };
 
 struct ChunkOfDirections {
@@ -26,6 +26,12 @@ struct ChunkOfDirections {
     const float* y;
     const float* z;
     std::size_t count;
+
+    ChunkOfDirections(const Directions& of, std::size_t start)
+        : x(of.x.data() + start),
+          y(of.y.data() + start),
+          z(of.z.data() + start),
+          count(std::min(kChunk, of.x.size() - start)) {}
 };
 
 void lambert_shares(const ChunkOfDirections& wi, Shares& shares) {
@@ -74,7 +80,25 @@ void ggx_shares(float alpha,
         const float fresnel = lobes::schlick_weight(std::min(cos_h, 1.0F));
         shares.diffuse[i] = layer * coat.transmission(cos_i) * cos_i;
         shares.specular[i] = lobe * (1.0F - fresnel);
-        shares.white[i] = lobe * fresnel;
+        shares.grazing[i] = lobe * fresnel;
+    }
+}
+
+// A share that the model does not have is left as it is. `wo` is above the horizon.
+void find_shares(const Bsdf& bsdf,
+                 const Imath::V3f& wo,
+                 const ChunkOfDirections& wi,
+                 Shares& shares) {
+    switch (bsdf.model()) {
+        case BsdfModel::lambert:
+            lambert_shares(wi, shares);
+            break;
+        case BsdfModel::phong:
+            phong_shares(bsdf.exponent(), wo, wi, shares);
+            break;
+        case BsdfModel::ggx:
+            ggx_shares(bsdf.alpha(), bsdf.coat(), wo, wi, shares);
+            break;
     }
 }
 
@@ -92,19 +116,8 @@ void Bsdf::evaluate_times_cosine(const Imath::V3f& wo,
     }
     Shares shares;
     for (std::size_t start = 0; start < count; start += kChunk) {
-        const ChunkOfDirections chunk{wi.x.data() + start, wi.y.data() + start,
-                                      wi.z.data() + start, std::min(kChunk, count - start)};
-        switch (model_) {
-            case BsdfModel::lambert:
-                lambert_shares(chunk, shares);
-                break;
-            case BsdfModel::phong:
-                phong_shares(exponent_, wo, chunk, shares);
-                break;
-            case BsdfModel::ggx:
-                ggx_shares(alpha_, coat_, wo, chunk, shares);
-                break;
-        }
+        const ChunkOfDirections chunk(wi, start);
+        find_shares(*this, wo, chunk, shares);
         for (int c = 0; c < 3; ++c) {
             float* plane = planes[static_cast<std::size_t>(c)] + start;
             const float diffuse = diffuse_[c];
@@ -118,9 +131,24 @@ void Bsdf::evaluate_times_cosine(const Imath::V3f& wo,
             } else {
                 for (std::size_t i = 0; i < chunk.count; ++i)
                     plane[i] = diffuse * shares.diffuse[i] + specular * shares.specular[i] +
-                               grazing_ * shares.white[i];
+                               grazing_ * shares.grazing[i];
             }
         }
+    }
+}
+
+void Bsdf::evaluate_lobes_times_cosine(const Imath::V3f& wo,
+                                       const Directions& wi,
+                                       const LobePlanes& out) const {
+    Shares shares{};
+    const bool is_seen = wo.z > 0;
+    for (std::size_t start = 0; start < wi.x.size(); start += kChunk) {
+        const ChunkOfDirections chunk(wi, start);
+        if (is_seen)
+            find_shares(*this, wo, chunk, shares);
+        std::copy_n(shares.diffuse.begin(), chunk.count, out.diffuse.data() + start);
+        std::copy_n(shares.specular.begin(), chunk.count, out.specular.data() + start);
+        std::copy_n(shares.grazing.begin(), chunk.count, out.grazing.data() + start);
     }
 }
 

@@ -31,6 +31,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
         {"protocol/relighting", {}},
         {"protocol/wire", {"protocol/relighting"}},
         {"precompute/scene", {"protocol/basis"}},
+        {"precompute/factors", {"precompute/scene", "protocol/brdf"}},
         {"precompute/bake/base", {"precompute/scene", "protocol/basis", "protocol/transport"}},
         {"precompute/bake/rays",
          {"precompute/bake/base", "precompute/scene", "protocol/basis", "protocol/transport"}},

@@ -263,6 +263,38 @@ TEST_P(EveryBsdf, ManyDirectionsGiveTheBitsOfOne) {
     }
 }
 
+TEST_P(EveryBsdf, IsItsColoursTimesItsLobes) {
+    const Bsdf& bsdf = GetParam().bsdf;
+    Random random(17);
+    constexpr std::size_t kCount = 130;
+    std::vector<float> x;
+    std::vector<float> y;
+    std::vector<float> z;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const Imath::V3f wi = any_direction(random);
+        x.push_back(wi.x);
+        y.push_back(wi.y);
+        z.push_back(i % 5 == 4 ? -wi.z : wi.z);
+    }
+    for (const float sign : {1.0F, -1.0F}) {
+        Imath::V3f wo = any_direction(random);
+        wo.z *= sign;
+        std::vector<float> diffuse(kCount, -1);
+        std::vector<float> specular(kCount, -1);
+        std::vector<float> grazing(kCount, -1);
+        bsdf.evaluate_lobes_times_cosine(wo, {x, y, z}, {diffuse, specular, grazing});
+        for (std::size_t i = 0; i < kCount; ++i) {
+            const Imath::V3f value = bsdf.diffuse_colour() * diffuse[i] +
+                                     bsdf.specular_colour() * specular[i] +
+                                     Imath::V3f(bsdf.grazing() * grazing[i]);
+            const Imath::V3f expected =
+                bsdf.evaluate({x[i], y[i], z[i]}, wo) * std::max(z[i], 0.0F);
+            ASSERT_NEAR((value - expected).length(), 0, 1e-6F + 1e-5F * expected.length());
+            ASSERT_GE(std::min({diffuse[i], specular[i], grazing[i]}), 0);
+        }
+    }
+}
+
 TEST_P(EveryBsdf, IsBlackBelowTheHorizon) {
     const Bsdf& bsdf = GetParam().bsdf;
     const Imath::V3f above = direction(0.5, 1);

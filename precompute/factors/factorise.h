@@ -1,0 +1,59 @@
+// From lobes to a factored BRDF of as many terms as an error asks for.
+//
+// Errors are relative L2 errors of ρ, red, green and blue with the lobes' mean colours, under
+// cos θi dωi × cos θo dωo.
+#pragma once
+
+#include "precompute/factors/brdf_lobes.h"
+#include "protocol/brdf/factored_brdf.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace relume::factors {
+
+enum class Method : std::uint8_t {
+    svd,  // the least error; factors and the sum may be negative
+    nmf,  // nothing is negative
+};
+
+struct FactorOptions {
+    // What a report tells and a target may ask for. A fixed number of terms may be higher.
+    static constexpr std::uint32_t kMostChosenTerms = 10;
+
+    Method method = Method::svd;
+    double target_error = 0.05;            // above 0
+    std::optional<std::uint32_t> terms{};  // 1 … 16, instead of a target
+};
+
+struct Factorisation {
+    brdf::FactoredBrdf brdf;
+    // errors[k − 1]: with k terms, k = 1 … 10 or as many as were asked for, if more. Where the
+    // lobes have no more terms the last error stands for all after it.
+    std::vector<double> errors;
+    double error = 0;           // with the terms that brdf has
+    bool meets_target = false;  // target_error, also where the number of terms was given
+    // One of a pair is left out: what is reflected depends on the tangent, and turning light,
+    // surface and viewer about the normal changes it. A target never tears a pair.
+    bool tears_pair = false;
+    // The most negative value that the tables give, in units of the root mean square of ρ's
+    // three colours, and the relative L2 norm of all that is negative; 0 where nothing is.
+    double largest_negative = 0;
+    double negative_norm = 0;
+};
+
+// Chooses the smallest number of terms that meets the target, at most 10; where none does, the
+// largest that tears no pair. A constant BRDF gets its one term exactly. Throws FactorError for
+// options out of range, and for NMF of a highlight that its grid of 129 rows cannot tell.
+// Deterministic; uses all cores. Memory: at most 400 MiB by SVD, 100 MiB by NMF.
+[[nodiscard]] Factorisation factorise(std::string name,
+                                      const BrdfLobes& lobes,
+                                      const FactorOptions& options = {});
+[[nodiscard]] Factorisation factorise(std::string name,
+                                      const scene::Bsdf& mean,
+                                      const FactorOptions& options = {});
+
+}  // namespace relume::factors
