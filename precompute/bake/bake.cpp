@@ -4,6 +4,7 @@
 #include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/image_subject.h"
+#include "precompute/bake/mesh/mesh_subject.h"
 #include "precompute/bake/peak_memory.h"
 #include "precompute/bake/version.h"
 #include "protocol/base/timing/stopwatch.h"
@@ -97,6 +98,15 @@ transport::ShardPlan plan_of(std::span<const ShardClusters> shards) {
     return plan;
 }
 
+std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
+                                          const BakeParameters& parameters,
+                                          const BakeHooks& hooks) {
+    if (parameters.receivers == ReceiverKind::vertices) {
+        return std::make_unique<MeshSubject>(caster, parameters, hooks.should_stop);
+    }
+    return std::make_unique<ImageSubject>(caster, parameters);
+}
+
 class Bake {
   public:
     Bake(const scene::Scene& scene,
@@ -106,7 +116,7 @@ class Bake {
         : parameters_(parameters),
           directory_(directory),
           caster_(scene),
-          subject_(std::make_unique<ImageSubject>(caster_, parameters)),
+          subject_(make_subject(caster_, parameters, hooks)),
           texels_(parameters.face_resolution, parameters.seed),
           tracer_(caster_, parameters_),
           traced_(subject_->receivers(), tracer_, parameters_),
@@ -193,8 +203,11 @@ class Bake {
         }
         tables.coverage = coverage_of_slots();
         writer.state_sampling_error(sampling_error(samples));
-        writer.finish(tables, {{"quantisation_error", json_from_errors(errors)},
-                               {"chroma_residual", quantisation_.chroma_residual}});
+        subject_->write_tables(writer);
+        nlohmann::json measured = subject_->measured();
+        measured["quantisation_error"] = json_from_errors(errors);
+        measured["chroma_residual"] = quantisation_.chroma_residual;
+        writer.finish(tables, measured);
         notes.remove();
         subject_->write_files(directory_);
     }
@@ -222,9 +235,11 @@ class Bake {
         std::span<const ClusterSample> samples) const {
         BakeParameters parameters = parameters_;
         parameters.seed = other_seed(parameters_);
-        const ImageSubject other(caster_, parameters);
-        return measure_sampling_error(caster_, subject_->receivers(), other.receivers(),
-                                      parameters_, samples);
+        const std::unique_ptr<const Receivers> other =
+            subject_->receivers_looked_at(parameters);
+        return measure_sampling_error(caster_, subject_->receivers(),
+                                      other ? *other : subject_->receivers(), parameters_,
+                                      samples);
     }
 
     BakeParameters parameters_;

@@ -1,10 +1,15 @@
 // What a bake is of: receivers of one kind, and what a transport of that kind has beside rows.
 #pragma once
 
+#include "precompute/bake/base/parameters.h"
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
+#include "protocol/transport/transport_writer.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace relume::bake {
@@ -17,14 +22,22 @@ class BakeSubject {
     virtual ~BakeSubject() = default;
 
     [[nodiscard]] virtual const Receivers& receivers() const = 0;
+    // The same receivers looked at with other parameters; null where these change nothing.
+    [[nodiscard]] virtual std::unique_ptr<const Receivers> receivers_looked_at(
+        const BakeParameters& parameters) const = 0;
     // Throws BakeError where no receiver sees a surface.
     virtual void check() const = 0;
     // Sets what the manifest says of the receivers, and the fingerprint of a bake of them by
     // the manifest's generator.
     virtual void describe(transport::Manifest& manifest) const = 0;
 
+    // What was found out about them before the bake: more of the manifest's `measured`.
+    [[nodiscard]] virtual nlohmann::json measured() const = 0;
+
     // How much of each receiver sees the scene, in [0, 1].
     [[nodiscard]] virtual std::vector<float> coverage() = 0;
+    // Files of the transport that are neither shards nor tables of all kinds.
+    virtual void write_tables(transport::TransportWriter& writer) = 0;
     // What people and clients look at beside the finished transport in `directory`. After
     // coverage(). Throws BakeError, files::FileError.
     virtual void write_files(const std::filesystem::path& directory) const = 0;

@@ -16,6 +16,10 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                                             {"sh", Kind::spherical_harmonics}};
     const std::map<std::string, scene::UpAxis> up_axes{{"y", scene::UpAxis::y},
                                                        {"z", scene::UpAxis::z}};
+    const std::map<std::string, ReceiverKind> kinds_of_receivers{
+        {"pixels", ReceiverKind::pixels}, {"vertices", ReceiverKind::vertices}};
+    const std::map<std::string, factors::Method> factor_methods{{"svd", factors::Method::svd},
+                                                                {"nmf", factors::Method::nmf}};
     BakeParameters& p = arguments.parameters;
     auto* scene =
         app.add_option("scene", arguments.scene, "glTF 2.0, GLB, OBJ or PLY file to bake");
@@ -65,6 +69,21 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--shrinkage", p.shrinkage,
                    "Standard errors an indirect coefficient must stand clear of")
         ->capture_default_str();
+    app.add_option("--receivers", p.receivers,
+                   "What the bake is of: pixels of one image, or vertices of the surface, for "
+                   "cameras that move [pixels]")
+        ->transform(CLI::CheckedTransformer(kinds_of_receivers).description(""));
+    app.add_option("--vertices", p.vertices, "Of the refined surface, at most")
+        ->capture_default_str();
+    app.add_option("--target-error", p.target_error,
+                   "Relative L2 asked of light between vertices and of every material's terms")
+        ->capture_default_str();
+    app.add_option("--terms", p.terms,
+                   "Of every material's BRDF, 1 to 10; 0: as few as meet the target error")
+        ->capture_default_str();
+    app.add_option("--factors", p.factor_method,
+                   "How BRDFs are factored: svd, or nmf, in which nothing is negative [svd]")
+        ->transform(CLI::CheckedTransformer(factor_methods).description(""));
     app.add_option("--threads", p.threads, "Threads; 0: one per core")->capture_default_str();
     app.add_option("--seed", p.seed, "Chooses all random numbers")->capture_default_str();
 }

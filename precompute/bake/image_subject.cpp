@@ -3,6 +3,8 @@
 #include "precompute/bake/fingerprint.h"
 #include "precompute/bake/framing.h"
 
+#include <nlohmann/json.hpp>
+
 namespace relume::bake {
 namespace {
 
@@ -18,7 +20,15 @@ transport::CameraRecord record_of(const scene::Camera& camera, const scene::Worl
 }  // namespace
 
 ImageSubject::ImageSubject(const RayCaster& caster, const BakeParameters& parameters)
-    : scene_(caster.scene()), parameters_(parameters), pixels_(caster, parameters) {}
+    : caster_(caster),
+      scene_(caster.scene()),
+      parameters_(parameters),
+      pixels_(caster, parameters) {}
+
+std::unique_ptr<const Receivers> ImageSubject::receivers_looked_at(
+    const BakeParameters& parameters) const {
+    return std::make_unique<PixelReceivers>(caster_, parameters);
+}
 
 void ImageSubject::check() const {
     check_framing(scene_, pixels_);
@@ -31,6 +41,10 @@ void ImageSubject::describe(transport::Manifest& manifest) const {
     manifest.camera = record_of(pixels_.camera(), scene_.frame);
     manifest.fingerprint =
         fingerprint_of(scene_, pixels_.camera(), parameters_, manifest.generator);
+}
+
+nlohmann::json ImageSubject::measured() const {
+    return nlohmann::json::object();
 }
 
 std::vector<float> ImageSubject::coverage() {

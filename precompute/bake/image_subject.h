@@ -13,12 +13,18 @@ class ImageSubject final : public BakeSubject {
     ImageSubject(const RayCaster& caster, const BakeParameters& parameters);
 
     [[nodiscard]] const Receivers& receivers() const override { return pixels_; }
+    [[nodiscard]] std::unique_ptr<const Receivers> receivers_looked_at(
+        const BakeParameters& parameters) const override;
     void check() const override;
     void describe(transport::Manifest& manifest) const override;
+    [[nodiscard]] nlohmann::json measured() const override;
     [[nodiscard]] std::vector<float> coverage() override;
+    // A picture has none.
+    void write_tables(transport::TransportWriter& /*writer*/) override {}
     void write_files(const std::filesystem::path& directory) const override;
 
   private:
+    const RayCaster& caster_;
     const scene::Scene& scene_;
     BakeParameters parameters_;
     PixelReceivers pixels_;

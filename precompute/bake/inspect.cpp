@@ -72,6 +72,22 @@ std::string basis_text(const nlohmann::json& basis) {
                : "Haar";
 }
 
+double pixels_of(const nlohmann::json& d) {
+    const auto& image = d.at("image");
+    return image.at("width").get<double>() * image.at("height").get<double>();
+}
+
+std::string receivers_text(const nlohmann::json& d) {
+    if (d.contains("vertices")) {
+        return fmt::format("{} vertices, {} triangles, {} blocks in {} clusters",
+                           d.at("vertices").get<int>(), d.at("triangles").get<int>(),
+                           d.at("blocks").get<int>(), d.at("clusters").get<int>());
+    }
+    const auto& image = d.at("image");
+    return fmt::format("{}×{} pixels", image.at("width").get<int>(),
+                       image.at("height").get<int>());
+}
+
 std::string megabytes(double bytes) {
     return fmt::format("{:.1f} MB", bytes / 1e6);
 }
@@ -91,6 +107,18 @@ std::string lines_from_measured(const nlohmann::json& measured) {
             text += fmt::format(
                 "  quantisation error under {} light: L2 {:.2e}, gradient {:.2e}\n", light,
                 error.at("relative_l2").get<double>(), error.at("relative_h1").get<double>());
+        }
+    }
+    if (measured.contains("surface")) {
+        const auto& surface = measured.at("surface");
+        text += fmt::format(
+            "  light between vertices is interpolated with an error of L2 {:.2e}, measured "
+            "before the bake\n",
+            surface.at("interpolation_error").get<double>());
+        for (const auto& brdf : measured.at("brdfs")) {
+            text += fmt::format("  BRDF of {}: {} term(s), L2 {:.2e}\n",
+                                brdf.at("name").get<std::string>(), brdf.at("terms").get<int>(),
+                                brdf.at("error").get<double>());
         }
     }
     if (measured.contains("chroma_residual")) {
@@ -130,7 +158,7 @@ nlohmann::json describe(const std::filesystem::path& directory) {
     nlohmann::json description{
         {"directory", directory.string()},
         {"generator", manifest.generator},
-        {"image", {{"width", manifest.image().width}, {"height", manifest.image().height}}},
+        {"kind", transport::kKindNames.name(manifest.kind)},
         {"basis", transport::json_from(manifest.signal_basis)},
         {"columns", transport->column_count()},
         {"colour",
@@ -140,6 +168,14 @@ nlohmann::json describe(const std::filesystem::path& directory) {
         {"sampling_error", transport::json_from(manifest.sampling_error)},
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
+    const transport::TileGrid& image = manifest.mesh ? manifest.mesh->view : manifest.image();
+    description["image"] = {{"width", image.width}, {"height", image.height}};
+    if (manifest.mesh) {
+        description["vertices"] = manifest.layout.clusters().vertex_count();
+        description["clusters"] = manifest.layout.clusters().clusters().size();
+        description["blocks"] = manifest.block_count();
+        description["triangles"] = transport->surface()->mesh.triangles.size();
+    }
     std::uint64_t nonzeros = 0;
     for (const transport::ShardReader& shard : transport->shards()) {
         for (const std::uint64_t count : shard.statistics().nonzeros) {
@@ -160,16 +196,16 @@ std::string exactness_text(const nlohmann::json& basis) {
 }
 
 std::string text_from_description(const nlohmann::json& d) {
-    const auto& image = d.at("image");
     const auto bytes = d.at("bytes").get<double>();
-    const double pixels = image.at("width").get<double>() * image.at("height").get<double>();
+    const bool is_mesh = d.contains("vertices");
+    const double receivers = is_mesh ? d.at("vertices").get<double>() : pixels_of(d);
+    const char* receiver = is_mesh ? "vertex" : "pixel";
     std::string text = fmt::format(
-        "{}\n  {}×{} pixels, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
-        "  {}, {:.0f} bytes and {:.0f} non-zeros per pixel\n",
-        d.at("directory").get<std::string>(), image.at("width").get<int>(),
-        image.at("height").get<int>(), d.at("colour").at("channels").get<int>(),
-        d.at("shards").get<int>(), megabytes(bytes), bytes / pixels,
-        d.at("nonzeros").get<double>() / pixels,
+        "{}\n  {}, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
+        "  {}, {:.0f} bytes and {:.0f} non-zeros per {}\n",
+        d.at("directory").get<std::string>(), receivers_text(d),
+        d.at("colour").at("channels").get<int>(), d.at("shards").get<int>(), megabytes(bytes),
+        bytes / receivers, d.at("nonzeros").get<double>() / receivers, receiver,
         fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
         fmt::arg("basis", basis_text(d.at("basis"))));
     if (const auto& error = d.at("sampling_error"); !error.is_null()) {

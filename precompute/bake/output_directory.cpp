@@ -97,7 +97,8 @@ fs::path transport_directory_from_option(const std::string& text) {
 LeastBytes least_bytes(const BakeParameters& parameters) {
     const transport::TileGrid image{.width = parameters.width, .height = parameters.height};
     const std::uint64_t columns = signal_basis(parameters).coefficient_count();
-    const std::uint64_t blocks = image.block_count();
+    const std::uint64_t blocks =
+        parameters.receivers == ReceiverKind::pixels ? image.block_count() : 1;
     constexpr std::uint64_t kColours = transport::kColours;
     const std::uint64_t column_table = columns * 4 * (1 + kColours + 1);
     const std::uint64_t receivers = blocks * transport::kBlockSize * 4 * (1 + kColours);

@@ -78,9 +78,12 @@ std::string purpose(const nlohmann::json& description) {
             fmt::format("light of any kind, with detail down to {:.1f}° (6×{n}×{n} texels)",
                         90.0 / n, fmt::arg("n", n));
     }
-    return fmt::format("  good for {}; {}; {}×{} pixels from this one camera\n", detail,
-                       bounces_text(bounces), image.at("width").get<int>(),
-                       image.at("height").get<int>());
+    const std::string view =
+        description.contains("vertices")
+            ? "any camera"
+            : fmt::format("{}×{} pixels from this one camera", image.at("width").get<int>(),
+                          image.at("height").get<int>());
+    return fmt::format("  good for {}; {}; {}\n", detail, bounces_text(bounces), view);
 }
 
 std::string sampling_error(const nlohmann::json& error) {

@@ -55,7 +55,7 @@ class TileSampler {
 
   private:
     struct Scratch {
-        bake::CoefficientRow row;
+        std::vector<bake::CoefficientRow> terms;
         bake::RowBaker::Scratch rows;
     };
 
@@ -66,8 +66,8 @@ class TileSampler {
             return;
         }
         Scratch& scratch = scratches_.local();
-        rows_.bake(traced, &pool_, scratch.row, scratch.rows);
-        bake::split_colours(quantisation_.colour, scratch.row, channels);
+        rows_.bake(traced, &pool_, scratch.terms, scratch.rows);
+        bake::split_colours(quantisation_.colour, scratch.terms.front(), channels);
         pixel.covered = true;
         for (std::size_t c = 0; c < 3; ++c) {
             pixel.tint[c] = channels.tint[static_cast<int>(c)];
@@ -77,7 +77,7 @@ class TileSampler {
             for (std::size_t c = 0; c < 3; ++c) {
                 for (std::size_t j = 0; j < radiance.size(); ++j) {
                     pixel.exact[light][c] +=
-                        double{scratch.row.rgb[c][j]} * double{radiance[j]};
+                        double{scratch.terms.front().rgb[c][j]} * double{radiance[j]};
                 }
             }
         }

@@ -49,8 +49,8 @@ LinearImage relit_from_rows(const scene::Scene& scene,
         rows.projection().project_radiance(plane, coefficients[c]);
     }
     struct Scratch {
-        bake::RowBaker::Scratch rows;
-        bake::CoefficientRow row;
+        bake::RowBaker::Scratch baking;
+        std::vector<bake::CoefficientRow> rows;
     };
     tbb::enumerable_thread_specific<Scratch> scratches;
     const std::size_t pixels = receivers.receiver_count();
@@ -58,11 +58,11 @@ LinearImage relit_from_rows(const scene::Scene& scene,
                       std::vector<V3d>(pixels, V3d(0, 0, 0))};
     tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t p) {
         Scratch& scratch = scratches.local();
-        rows.bake(tracer.trace(receivers.look(p)), nullptr, scratch.row, scratch.rows);
+        rows.bake(tracer.trace(receivers.look(p)), nullptr, scratch.rows, scratch.baking);
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t j = 0; j < columns; ++j)
                 image.pixels[p][static_cast<int>(c)] +=
-                    double{scratch.row.rgb[c][j]} * coefficients[c][j];
+                    double{scratch.rows.front().rgb[c][j]} * coefficients[c][j];
         }
     });
     return image;

@@ -25,6 +25,8 @@ void require_range(std::string_view name, T value, T low, T high) {
 
 void check_parameters(const BakeParameters& p) {
     constexpr std::uint32_t kMaxSamples = 1U << 20U;
+    constexpr std::uint32_t kMostVertices = 1'000'000;
+    constexpr std::uint32_t kMostTerms = 10;
     require_range("image width", p.width, 1U, transport::kMaxImageSide);
     require_range("image height", p.height, 1U, transport::kMaxImageSide);
     if (!basis::is_face_resolution(p.face_resolution)) {
@@ -43,6 +45,9 @@ void check_parameters(const BakeParameters& p) {
     require_range("pool radius", p.pool_radius, 0U, 16U);
     require_range("shrinkage", p.shrinkage, 0.0F, 10.0F);
     require_range("threads", p.threads, 0U, 1024U);
+    require_range("vertices", p.vertices, 3U, kMostVertices);
+    require_range("target error", p.target_error, 0.0, 1.0);
+    require_range("terms", p.terms, 0U, kMostTerms);
 }
 
 basis::CubemapBasis signal_basis(const BakeParameters& p) {
@@ -70,6 +75,13 @@ nlohmann::json json_from_parameters(const BakeParameters& p) {
     if (p.basis == basis::CubemapBasis::Kind::spherical_harmonics) {
         object["basis"] = transport::name_of(p.basis);
         object["order"] = p.order;
+    }
+    if (p.receivers == ReceiverKind::vertices) {
+        object["receivers"] = "vertices";
+        object["vertices"] = p.vertices;
+        object["target_error"] = p.target_error;
+        object["terms"] = p.terms;
+        object["factors"] = p.factor_method == factors::Method::svd ? "svd" : "nmf";
     }
     return object;
 }

@@ -1,6 +1,7 @@
 // What a bake is asked for, beside the scene.
 #pragma once
 
+#include "precompute/factors/factorise.h"
 #include "precompute/scene/up_axis.h"
 #include "protocol/basis/cubemap_basis.h"
 
@@ -10,8 +11,12 @@
 
 namespace relume::bake {
 
+// What the bake is of: the pixels of one image, or the vertices of the scene's surface.
+enum class ReceiverKind : std::uint8_t { pixels, vertices };
+
 struct BakeParameters {
-    std::uint32_t width = 512;           // pixels
+    ReceiverKind receivers = ReceiverKind::pixels;
+    std::uint32_t width = 512;           // pixels; of vertices, where a view begins
     std::uint32_t height = 512;          // pixels
     std::uint32_t face_resolution = 64;  // n of the 6×n×n lighting cubemap
     basis::CubemapBasis::Kind basis = basis::CubemapBasis::Kind::haar;
@@ -23,7 +28,12 @@ struct BakeParameters {
     std::uint32_t edge_samples = 8;    // more visibility rays per texel at shadow edges
     std::uint32_t pool_radius = 4;     // pixels whose paths are shared; 0: none
     float shrinkage = 2.0F;            // standard errors a coefficient must stand clear of
-    std::uint32_t threads = 0;         // 0: one per core; changes no result
+    // Of vertices:
+    std::uint32_t vertices = 40'000;  // at most
+    double target_error = 0.02;       // relative L2 that is asked of interpolation and of terms
+    std::uint32_t terms = 0;          // of every material; 0: as few as meet target_error
+    factors::Method factor_method = factors::Method::svd;
+    std::uint32_t threads = 0;  // 0: one per core; changes no result
     std::uint64_t seed = 0;
     scene::UpAxis up_axis = scene::UpAxis::y;  // of the scene's file
 };

@@ -78,7 +78,7 @@ class Rebake {
         (void)traced.move_to(cluster, 1);
         const PathPool pool(traced);
         DrawnError error;
-        CoefficientRow row;
+        std::vector<CoefficientRow> terms;
         RowBaker::Scratch scratch;
         for (std::size_t draw = 0; draw < sample.drawn; ++draw) {
             const SampledReceiver& drawn = sample.draws[draw];
@@ -86,8 +86,8 @@ class Rebake {
                 1 / (drawn.probability * static_cast<double>(ClusterSample::kDraws));
             LitColours again{};
             if (!traced.at(drawn.receiver).receiver.surfaces.empty()) {
-                again_.rows.bake(traced.at(drawn.receiver), &pool, row, scratch);
-                again = lights_.colours(row);
+                again_.rows.bake(traced.at(drawn.receiver), &pool, terms, scratch);
+                again = lights_.colours(terms.front());
             }
             add(weight / 2, drawn.baked, again, drawn.baked, again, error.noise);
             if (fills(receivers_.look(drawn.receiver))) {
@@ -116,14 +116,14 @@ class Rebake {
     [[nodiscard]] LitColours mean_of_points(std::size_t receiver, const RowSource& from) const {
         LitColours mean{};
         std::vector<Receiver> points = receivers_.points(receiver, from.parameters.seed);
-        CoefficientRow row;
+        std::vector<CoefficientRow> terms;
         RowBaker::Scratch scratch;
         for (Receiver& point : points) {
             if (point.surfaces.empty()) {
                 continue;
             }
-            from.rows.bake(from.tracer.trace(std::move(point)), nullptr, row, scratch);
-            const LitColours one = lights_.colours(row);
+            from.rows.bake(from.tracer.trace(std::move(point)), nullptr, terms, scratch);
+            const LitColours one = lights_.colours(terms.front());
             for (std::size_t i = 0; i < kModelLights; ++i) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     mean[i][c] += one[i][c] / static_cast<double>(points.size());

@@ -53,7 +53,7 @@ void RowBaker::bake(const TracedReceiver& traced,
     rows.resize(traced.receiver.terms());
     const std::vector<ReceiverSurface>& surfaces = traced.receiver.surfaces;
     if (surfaces.size() != 1 || surfaces[0].brdf == nullptr) {
-        bake(traced, pool, rows.front(), scratch);
+        bake_reflected(traced, pool, rows.front(), scratch);
         return;
     }
     direct_.compute(traced.receiver, seed_, scratch.texels, scratch.direct);
@@ -65,10 +65,10 @@ void RowBaker::bake(const TracedReceiver& traced,
     }
 }
 
-void RowBaker::bake(const TracedReceiver& traced,
-                    const PathPool* pool,
-                    CoefficientRow& row,
-                    Scratch& scratch) const {
+void RowBaker::bake_reflected(const TracedReceiver& traced,
+                              const PathPool* pool,
+                              CoefficientRow& row,
+                              Scratch& scratch) const {
     direct_.compute(traced.receiver, seed_, scratch.texels, scratch.direct);
     project(scratch.texels, row, scratch);
     row.direct_white = white_response(row);

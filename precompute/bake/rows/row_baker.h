@@ -50,13 +50,13 @@ class RowBaker {
               const PathPool* pool,
               std::vector<CoefficientRow>& rows,
               Scratch& scratch) const;
-    // Of a receiver with one row.
-    void bake(const TracedReceiver& traced,
-              const PathPool* pool,
-              CoefficientRow& row,
-              Scratch& scratch) const;
 
   private:
+    // Of a receiver whose surfaces reflect to one viewer.
+    void bake_reflected(const TracedReceiver& traced,
+                        const PathPool* pool,
+                        CoefficientRow& row,
+                        Scratch& scratch) const;
     void project(const TexelRow& texels, CoefficientRow& row, Scratch& scratch) const;
     void project_terms(const ReceiverSurface& surface,
                        std::span<CoefficientRow> rows,

@@ -232,17 +232,17 @@ TEST_F(ReceiversTest, ARowIsDirectLightAndThePathsOfItsNeighbours) {
     TracedReceivers traced(receivers_, tracer_, parameters_);
     const PathPool pool(traced);
     RowBaker::Scratch scratch;
-    CoefficientRow row;
+    std::vector<CoefficientRow> rows;
     double changed = 0;
     for (std::uint32_t block = 0; block < 2; ++block) {
         traced.move_to(block, 1);
         for (std::size_t i = kFirstOfCluster.at(block); i < kFirstOfCluster.at(block + 1);
              ++i) {
-            rows_.bake(traced.at(i), &pool, row, scratch);
-            const Response found = response_of(row);
+            rows_.bake(traced.at(i), &pool, rows, scratch);
+            const Response found = response_of(rows.front());
             const Response expected = expected_response(i);
-            rows_.bake(traced.at(i), nullptr, row, scratch);
-            const Response alone = response_of(row);
+            rows_.bake(traced.at(i), nullptr, rows, scratch);
+            const Response alone = response_of(rows.front());
             for (std::size_t c = 0; c < 3; ++c) {
                 EXPECT_NEAR(found[c], expected[c], 1e-4 * expected[c]) << i;
                 changed = std::max(changed, std::abs(alone[c] / expected[c] - 1));
@@ -292,9 +292,9 @@ TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
             const auto receiver = receivers_.receiver_at(block, slot);
             ChannelRow split;
             if (receiver) {
-                CoefficientRow row;
-                rows_.bake(traced.at(*receiver), &pool, row, scratch);
-                split_colours(quantisation.colour, row, split);
+                std::vector<CoefficientRow> terms;
+                rows_.bake(traced.at(*receiver), &pool, terms, scratch);
+                split_colours(quantisation.colour, terms.front(), split);
                 for (std::uint32_t k = 0; k < channels; ++k) {
                     rows.set(slot, k, split.channel[k]);
                 }

@@ -1,0 +1,33 @@
+// A scene's materials as a mesh transport holds them: factored BRDFs, and colours and textures
+// of their lobes.
+#pragma once
+
+#include "precompute/factors/factorise.h"
+#include "precompute/scene/scene.h"
+#include "protocol/transport/mesh_section.h"
+#include "protocol/transport/surface_textures.h"
+
+#include <string>
+#include <vector>
+
+namespace relume::bake {
+
+// By the number of the scene's material: its BRDF has its number too.
+struct MeshMaterials {
+    std::vector<factors::Factorisation> factored;
+    std::vector<transport::MaterialRecord> records;
+    std::vector<transport::SurfaceTexture> textures;
+    // What of the materials is not shown: detail of roughness, normal maps, colours of
+    // vertices.
+    std::vector<std::string> notes;
+
+    [[nodiscard]] std::vector<brdf::FactoredBrdf> brdfs() const;
+};
+
+// What textures say of a material's colours is looked up at every texel and stored as colours
+// of lobes: a metal's base colour is no diffuse colour. Lobes have one shape over a material,
+// that of its median roughness or exponent. Deterministic. Throws BakeError.
+[[nodiscard]] MeshMaterials mesh_materials(const scene::Scene& scene,
+                                           const factors::FactorOptions& options);
+
+}  // namespace relume::bake

@@ -1,0 +1,126 @@
+#include "precompute/bake/mesh/mesh_subject.h"
+
+#include "precompute/bake/base/error.h"
+#include "precompute/bake/fingerprint.h"
+#include "precompute/bake/probes/light_probe.h"
+#include "precompute/bake/receivers/vertex/refinement.h"
+#include "precompute/bake/view_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <utility>
+
+namespace relume::bake {
+namespace {
+
+MeshMaterials materials_of(const scene::Scene& scene, const BakeParameters& parameters) {
+    return mesh_materials(
+        scene,
+        {.method = parameters.factor_method,
+         .target_error = parameters.target_error,
+         .terms = parameters.terms > 0 ? std::optional(parameters.terms) : std::nullopt});
+}
+
+RefinedSurface refined(const RayCaster& caster,
+                       const BakeParameters& parameters,
+                       const std::function<bool()>& should_stop) {
+    const LightProbe probe(caster, {});
+    return refine_surface(
+        caster.scene(), probe,
+        {.most_vertices = parameters.vertices,
+         .target_error = parameters.target_error,
+         .progress = [&](std::size_t /*vertices*/) {
+             if (should_stop && should_stop()) {
+                 throw BakeInterrupted("stopped while the surface was refined");
+             }
+         }});
+}
+
+std::vector<const brdf::FactoredBrdf*> brdfs_of(const MeshMaterials& materials) {
+    std::vector<const brdf::FactoredBrdf*> brdfs;
+    for (const factors::Factorisation& factored : materials.factored) {
+        brdfs.push_back(&factored.brdf);
+    }
+    return brdfs;
+}
+
+}  // namespace
+
+MeshSubject::MeshSubject(const RayCaster& caster,
+                         const BakeParameters& parameters,
+                         const std::function<bool()>& should_stop)
+    : scene_(caster.scene()),
+      parameters_(parameters),
+      camera_(scene_.camera, parameters.width, parameters.height),
+      materials_(materials_of(scene_, parameters)),
+      surface_(refined(caster, parameters, should_stop)),
+      vertices_(scene_, surface_, brdfs_of(materials_)) {}
+
+void MeshSubject::describe(transport::Manifest& manifest) const {
+    manifest.kind = transport::Kind::mesh;
+    manifest.block_basis = vertices_.block_basis();
+    std::vector<transport::Cluster> clusters;
+    for (const VertexCluster& cluster : surface_.clusters) {
+        clusters.push_back({.vertices = cluster.count,
+                            .terms = materials_.factored[cluster.material].brdf.terms,
+                            .material = cluster.material});
+    }
+    manifest.layout = transport::ReceiverLayout::vertex_clusters(
+        transport::VertexClusters(std::move(clusters)));
+    manifest.mesh = transport::MeshSection{
+        .frame = {.origin = scene_.frame.origin, .unit = scene_.frame.unit},
+        .view = {.width = parameters_.width, .height = parameters_.height},
+        .materials = materials_.records,
+        .mesh = {},
+        .brdfs = {},
+        .textures = {}};
+    manifest.camera = {.eye = camera_.eye(),
+                       .right = camera_.right(),
+                       .up = camera_.up(),
+                       .forward = camera_.forward(),
+                       .tan_half_width = camera_.tan_half_width(),
+                       .tan_half_height = camera_.tan_half_height()};
+    manifest.fingerprint = fingerprint_of(scene_, camera_, parameters_, manifest.generator);
+}
+
+nlohmann::json MeshSubject::measured() const {
+    nlohmann::json brdfs = nlohmann::json::array();
+    for (const factors::Factorisation& factored : materials_.factored) {
+        brdfs.push_back({{"name", factored.brdf.name},
+                         {"terms", factored.brdf.terms},
+                         {"error", factored.error},
+                         {"meets_target", factored.meets_target},
+                         {"tears_pair", factored.tears_pair},
+                         {"negative_norm", factored.negative_norm},
+                         {"error_of_terms", factored.errors}});
+    }
+    const RefinementReport& report = surface_.report;
+    return {{"brdfs", std::move(brdfs)},
+            {"surface",
+             {{"vertices", surface_.vertex_count()},
+              {"triangles", surface_.mesh.triangles.size()},
+              {"start_vertices", report.start_vertices},
+              {"scene_triangles", report.scene_triangles},
+              {"dropped_triangles", report.dropped_triangles},
+              {"two_sided_triangles", report.two_sided_triangles},
+              {"probes", report.probes},
+              {"rays", report.rays},
+              {"interpolation_error", report.interpolation_error},
+              {"meets_target", report.meets_target}}},
+            {"materials", materials_.notes}};
+}
+
+std::vector<float> MeshSubject::coverage() {
+    return std::vector<float>(surface_.vertex_count(), 1.0F);
+}
+
+void MeshSubject::write_tables(transport::TransportWriter& writer) {
+    writer.write_surface(
+        {.mesh = surface_.mesh, .brdfs = materials_.brdfs(), .textures = materials_.textures});
+}
+
+void MeshSubject::write_files(const std::filesystem::path& directory) const {
+    write_pictures(directory);
+}
+
+}  // namespace relume::bake

@@ -1,0 +1,46 @@
+// The bake of a scene's surface: its receivers are vertices, seen by cameras that move.
+#pragma once
+
+#include "precompute/bake/bake_subject.h"
+#include "precompute/bake/base/parameters.h"
+#include "precompute/bake/mesh/mesh_materials.h"
+#include "precompute/bake/rays/ray_caster.h"
+#include "precompute/bake/receivers/vertex/refined_surface.h"
+#include "precompute/bake/receivers/vertex/vertex_receivers.h"
+#include "precompute/scene/camera.h"
+
+namespace relume::bake {
+
+class MeshSubject final : public BakeSubject {
+  public:
+    // Factors the materials and refines the surface, which takes a part of the bake's time.
+    // Keeps a reference to the caster. `should_stop` is asked between rounds. Throws BakeError,
+    // BakeInterrupted, factors::FactorError, scene::SceneError.
+    MeshSubject(const RayCaster& caster,
+                const BakeParameters& parameters,
+                const std::function<bool()>& should_stop);
+
+    [[nodiscard]] const Receivers& receivers() const override { return vertices_; }
+    // A vertex lies where it lies.
+    [[nodiscard]] std::unique_ptr<const Receivers> receivers_looked_at(
+        const BakeParameters& /*parameters*/) const override {
+        return nullptr;
+    }
+    // A surface that can be refined has vertices.
+    void check() const override {}
+    void describe(transport::Manifest& manifest) const override;
+    [[nodiscard]] nlohmann::json measured() const override;
+    [[nodiscard]] std::vector<float> coverage() override;
+    void write_tables(transport::TransportWriter& writer) override;
+    void write_files(const std::filesystem::path& directory) const override;
+
+  private:
+    const scene::Scene& scene_;
+    BakeParameters parameters_;
+    scene::Camera camera_;
+    MeshMaterials materials_;
+    RefinedSurface surface_;
+    VertexReceivers vertices_;
+};
+
+}  // namespace relume::bake

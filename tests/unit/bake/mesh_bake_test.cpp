@@ -1,0 +1,200 @@
+// Bakes of vertices: what is stored, seen again by rays.
+#include "precompute/bake/bake.h"
+#include "precompute/bake/base/error.h"
+#include "precompute/bake/inspect.h"
+#include "precompute/bake/relight.h"
+#include "precompute/scene/builtin.h"
+#include "protocol/base/program/usage.h"
+#include "protocol/basis/cubemap.h"
+#include "protocol/transport/error.h"
+#include "protocol/transport/transport.h"
+#include "tests/support/scratch_directory.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace relume::bake {
+namespace {
+
+namespace fs = std::filesystem;
+
+BakeParameters parameters_of_mesh() {
+    BakeParameters parameters;
+    parameters.receivers = ReceiverKind::vertices;
+    parameters.width = 48;
+    parameters.height = 32;
+    parameters.face_resolution = 8;
+    parameters.bounces = 2;
+    parameters.samples = 64;
+    parameters.vertices = 3000;
+    parameters.target_error = 0.02;
+    return parameters;
+}
+
+// Brighter from above and from one side, the same everywhere else.
+CubemapLight sky_of(std::uint32_t n, float slope) {
+    CubemapLight light;
+    for (auto& plane : light) {
+        plane.resize(basis::texel_count(n));
+        for (std::size_t texel = 0; texel < plane.size(); ++texel) {
+            const Imath::V3f d =
+                basis::direction_from_texel(n, basis::texel_from_index(n, texel));
+            plane[texel] = 1 + slope * (d.y + 0.5F * d.x);
+        }
+    }
+    return light;
+}
+
+// Over the pixels that the scene fills: along its outline the two have other rays.
+double relative_l2(const DenseImage& image, const DenseImage& truth) {
+    double difference = 0;
+    double norm = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t pixel = 0; pixel < truth.rgb[c].size(); ++pixel) {
+            if (truth.coverage[pixel] < 1 || image.coverage[pixel] < 1) {
+                continue;
+            }
+            difference += std::pow(image.rgb[c][pixel] - truth.rgb[c][pixel], 2);
+            norm += std::pow(truth.rgb[c][pixel], 2);
+        }
+    }
+    return std::sqrt(difference / norm);
+}
+
+class MeshBake : public testing::Test {
+  protected:
+    [[nodiscard]] std::shared_ptr<const transport::Transport> baked(
+        const scene::Scene& scene, const BakeParameters& parameters, const char* name) const {
+        bake(scene, parameters, scratch_.path() / name);
+        return transport::Transport::open(scratch_.path() / name);
+    }
+
+    test::ScratchDirectory scratch_;
+};
+
+TEST_F(MeshBake, AnOpenPlaneShowsItsAlbedoUnderAConstantLight) {
+    scene::Scene scene = scene::build_builtin_scene("plane");
+    scene.materials[0].base_colour = {0.8F, 0.4F, 0.2F};
+    const BakeParameters parameters = parameters_of_mesh();
+    const auto transport = baked(scene, parameters, "plane.relume");
+    const DenseImage seen = relight(*transport, sky_of(8, 0));
+    for (std::size_t pixel = 0; pixel < seen.coverage.size(); ++pixel) {
+        ASSERT_EQ(seen.coverage[pixel], 1);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double expected = scene.materials[0].base_colour[static_cast<int>(c)];
+            ASSERT_NEAR(seen.rgb[c][pixel], expected, 5e-3 * expected);
+        }
+    }
+}
+
+// The same scene baked for its one camera shows the same. Colours bleed from wall to wall in
+// it.
+TEST_F(MeshBake, TheSceneOwnCameraSeesWhatAnImageBakeShows) {
+    const scene::Scene scene = scene::build_builtin_scene("box");
+    BakeParameters parameters = parameters_of_mesh();
+    const auto mesh = baked(scene, parameters, "mesh.relume");
+    parameters.receivers = ReceiverKind::pixels;
+    const auto image = baked(scene, parameters, "image.relume");
+    const CubemapLight light = sky_of(8, 0.8F);
+    const double error = relative_l2(relight(*mesh, light), relight(*image, light));
+    std::printf("  relative L2 to the image bake: %.4f\n", error);
+    EXPECT_LT(error, 0.04);
+}
+
+// A glossy floor: its K terms agree with the bake of its own BSDF by what the bake states.
+TEST_F(MeshBake, TermsShowTheBrdfWithinTheErrorThatIsStated) {
+    scene::Scene scene = scene::build_builtin_scene("plane");
+    scene.materials[0] = {.name = "satin",
+                          .model = scene::BsdfModel::phong,
+                          .base_colour = {0.3F, 0.3F, 0.3F},
+                          .specular = {0.4F, 0.3F, 0.2F},
+                          .exponent = 1};
+    scene.camera = {
+        .name = "low", .eye = {0, 1, 2.2F}, .look_at = {0, 0, 0}, .vertical_fov_degrees = 20};
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.bounces = 0;
+    parameters.vertices = 200;
+    parameters.pixel_samples = 16;
+    parameters.target_error = 0.02;
+    const auto mesh = baked(scene, parameters, "mesh.relume");
+    const nlohmann::json brdf = mesh->manifest().measured.at("brdfs").at(0);
+    EXPECT_GT(brdf.at("terms").get<int>(), 1);
+    EXPECT_EQ(mesh->manifest().layout.clusters().clusters()[0].terms,
+              brdf.at("terms").get<std::uint32_t>());
+    parameters.receivers = ReceiverKind::pixels;
+    const auto image = baked(scene, parameters, "image.relume");
+    const CubemapLight light = sky_of(8, 0.9F);
+    const double error = relative_l2(relight(*mesh, light), relight(*image, light));
+    std::printf("  relative L2 to the image bake: %.4f, %d terms of L2 %.4f\n", error,
+                brdf.at("terms").get<int>(), brdf.at("error").get<double>());
+    EXPECT_LT(error, 2 * brdf.at("error").get<double>());
+}
+
+TEST_F(MeshBake, TheSameInputsGiveTheSameBytesOnAnyNumberOfThreads) {
+    const scene::Scene scene = scene::build_builtin_scene("box");
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.vertices = 500;
+    parameters.threads = 1;
+    bake(scene, parameters, scratch_.path() / "one.relume");
+    parameters.threads = 3;
+    bake(scene, parameters, scratch_.path() / "three.relume");
+    const auto bytes = [&](const char* folder, const char* file) {
+        std::ifstream stream(scratch_.path() / folder / file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    for (const char* file :
+         {"manifest.json", "mesh.bin", "brdfs.bin", "textures.bin", "columns.bin",
+          "receivers.bin", "sketch.bin", "shards/00000.shard"}) {
+        EXPECT_FALSE(bytes("one.relume", file).empty()) << file;
+        EXPECT_TRUE(bytes("one.relume", file) == bytes("three.relume", file)) << file;
+    }
+}
+
+TEST_F(MeshBake, IsWholeAndEveryDamagedFileIsRefusedByName) {
+    const fs::path directory = scratch_.path() / "box.relume";
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.vertices = 500;
+    bake(scene::build_builtin_scene("box"), parameters, directory);
+    EXPECT_TRUE(find_faults(directory).empty());
+    for (const char* name : {"mesh.bin", "brdfs.bin"}) {
+        const fs::path file = directory / name;
+        std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+        stream.seekg(40);
+        const char before = static_cast<char>(stream.get());
+        stream.seekp(40);
+        stream.put(static_cast<char>(before ^ 1));
+        stream.flush();
+        try {
+            (void)transport::Transport::open(directory);
+            ADD_FAILURE() << name;
+        } catch (const transport::TransportError& error) {
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        }
+        stream.seekp(40);
+        stream.put(before);
+    }
+    EXPECT_TRUE(find_faults(directory).empty());
+}
+
+TEST_F(MeshBake, RefusesFewerVerticesThanTheSceneHas) {
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.vertices = 10;
+    try {
+        bake(scene::build_builtin_scene("box"), parameters, scratch_.path() / "box.relume");
+        ADD_FAILURE();
+    } catch (const BakeError& error) {
+        EXPECT_NE(std::string(error.what()).find("at most 10"), std::string::npos)
+            << error.what();
+    }
+    parameters.terms = 11;
+    EXPECT_THROW(
+        bake(scene::build_builtin_scene("box"), parameters, scratch_.path() / "box.relume"),
+        program::UsageError);
+}
+
+}  // namespace
+}  // namespace relume::bake
