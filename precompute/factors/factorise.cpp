@@ -2,6 +2,8 @@
 
 #include "precompute/factors/error.h"
 #include "precompute/factors/negative_part.h"
+#include "precompute/factors/nonnegative_factors.h"
+#include "precompute/factors/term_errors.h"
 #include "precompute/factors/term_tables.h"
 
 #include <fmt/format.h>
@@ -14,8 +16,6 @@
 namespace relume::factors {
 namespace {
 
-// K ≤ 16 terms reach no higher: a frequency's largest singular value falls with the frequency.
-constexpr std::uint32_t kSvdFrequencies = 17;
 constexpr std::uint32_t kMostNmfRows = 129;
 constexpr std::uint32_t kNmfColumns = 128;
 
@@ -27,6 +27,10 @@ void require_usable(const BrdfLobes& lobes, const FactorOptions& options) {
     if (!(options.target_error > 0)) {
         throw FactorError(
             fmt::format("a target error of {}, expected one above 0", options.target_error));
+    }
+    if (options.method == Method::nmf && options.light != LightModel::uncorrelated) {
+        throw FactorError(
+            "non-negative factors for natural light: they are fitted to uncorrelated light");
     }
     if (options.terms &&
         (*options.terms < 1 || *options.terms > brdf::FactoredBrdf::kMostTerms)) {
@@ -73,14 +77,16 @@ double relative_root(double square, double whole) {
 
 Candidates candidates_from(const std::vector<AzimuthalTerm>& terms,
                            const AzimuthalSpectrum& spectrum,
+                           const LightWaves& light,
                            const std::vector<Imath::V3f>& colours) {
     Candidates candidates;
     candidates.square = square_in_colour(colours, spectrum.products());
-    Eigen::MatrixXd left = spectrum.products();
+    TermErrors left(spectrum, light);
+    const double whole = square_in_colour(colours, left.products());
     for (const AzimuthalTerm& term : terms) {
-        left -= products_of(term, spectrum.grid());
+        left.subtract(term);
         candidates.errors.push_back(
-            relative_root(square_in_colour(colours, left), candidates.square));
+            relative_root(square_in_colour(colours, left.products()), whole));
         candidates.tears_pair.push_back(term.frequency > 0 && !term.is_sine);
     }
     return candidates;
@@ -120,11 +126,13 @@ Factorisation chosen(const Candidates& candidates,
 }
 
 Factorisation by_svd(std::string name, const BrdfLobes& lobes, const FactorOptions& options) {
-    const AzimuthalSpectrum spectrum(lobes, rows_for_width(lobes.width_rad), kSvdFrequencies);
+    const AzimuthalSpectrum spectrum(lobes, rows_for_width(lobes.width_rad),
+                                     LightWaves::frequencies(options.light));
+    const LightWaves light(options.light, spectrum.grid());
     const std::vector<double> weights = lobes.weights();
     const std::vector<AzimuthalTerm> terms =
-        azimuthal_svd(spectrum, weights, told_terms(options));
-    const Candidates candidates = candidates_from(terms, spectrum, lobes.mean_colours);
+        azimuthal_svd(spectrum, light, weights, told_terms(options));
+    const Candidates candidates = candidates_from(terms, spectrum, light, lobes.mean_colours);
     const std::size_t count = chosen_terms(candidates, options);
     return chosen(candidates, count, options, lobes.mean_colours,
                   brdf_from_terms(std::move(name), std::span(terms).first(count), weights,

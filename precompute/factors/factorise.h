@@ -1,10 +1,13 @@
 // From lobes to a factored BRDF of as many terms as an error asks for.
 //
-// Errors are relative L2 errors of ρ, red, green and blue with the lobes' mean colours, under
-// cos θi dωi × cos θo dωo.
+// Errors are relative L2 errors of what is reflected, red, green and blue with the lobes' mean
+// colours, over all ωo weighted by cos θo and over random lights (light_waves.h). In
+// uncorrelated light that is the error of ρ itself, under cos θi dωi × cos θo dωo; in natural
+// light it is the error that an image is likely to have.
 #pragma once
 
 #include "precompute/factors/brdf_lobes.h"
+#include "precompute/factors/light_waves.h"
 #include "protocol/brdf/factored_brdf.h"
 
 #include <cstddef>
@@ -25,6 +28,8 @@ struct FactorOptions {
     static constexpr std::uint32_t kMostChosenTerms = 10;
 
     Method method = Method::svd;
+    // What the sum is the best for, and errors count in; NMF takes uncorrelated light alone.
+    LightModel light = LightModel::uncorrelated;
     double target_error = 0.05;            // above 0
     std::optional<std::uint32_t> terms{};  // 1 … 16, instead of a target
 };
@@ -48,7 +53,7 @@ struct Factorisation {
 // Chooses the smallest number of terms that meets the target, at most 10; where none does, the
 // largest that tears no pair. A constant BRDF gets its one term exactly. Throws FactorError for
 // options out of range, and for NMF of a highlight that its grid of 129 rows cannot tell.
-// Deterministic; uses all cores. Memory: at most 400 MiB by SVD, 100 MiB by NMF.
+// Deterministic; uses all cores. Memory: at most 450 MiB by SVD, 100 MiB by NMF.
 [[nodiscard]] Factorisation factorise(std::string name,
                                       const BrdfLobes& lobes,
                                       const FactorOptions& options = {});

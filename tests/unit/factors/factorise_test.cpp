@@ -272,6 +272,18 @@ TEST(Factorise, MeasuredIsAsItsFormula) {
     EXPECT_NEAR(measured_error(lobes, measured.brdf), measured.error, 0.01);
 }
 
+// A target that asks for the whole of a sharp highlight asks less in natural light.
+TEST(Factorise, NeedsFewerTermsInNaturalLight) {
+    const Bsdf bsdf = Bsdf::phong(V3f(0.2F), V3f(0.4F), 30);
+    const auto uncorrelated = factorise("m", bsdf, {.target_error = 0.12});
+    const auto natural =
+        factorise("m", bsdf, {.light = LightModel::natural, .target_error = 0.12});
+    EXPECT_FALSE(uncorrelated.meets_target);
+    EXPECT_TRUE(natural.meets_target);
+    EXPECT_LT(natural.brdf.terms, uncorrelated.brdf.terms);
+    EXPECT_TRUE(std::is_sorted(natural.errors.rbegin(), natural.errors.rend()));
+}
+
 TEST(Factorise, BlackAndOnlySpecularMaterialsHaveFactors) {
     for (const Bsdf& bsdf :
          {Bsdf::phong(V3f(0), V3f(0), 20), Bsdf::ggx(V3f(0), 1, 0.5F), Bsdf::lambert(V3f(0))}) {
@@ -294,6 +306,9 @@ TEST(Factorise, RefusesWhatItCannotDo) {
         EXPECT_THROW(static_cast<void>(factorise("m", Bsdf::lambert(V3f(1)), {.terms = terms})),
                      FactorError);
     }
+    EXPECT_THROW(static_cast<void>(factorise(
+                     "m", lobes, {.method = Method::nmf, .light = LightModel::natural})),
+                 FactorError);
     BrdfLobes none = lobes;
     none.mean_colours.clear();
     EXPECT_THROW(static_cast<void>(factorise("m", none)), FactorError);

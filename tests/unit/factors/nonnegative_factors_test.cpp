@@ -65,7 +65,9 @@ TEST(NonnegativeFactors, AreNowhereNegative) {
 TEST(NonnegativeFactors, ErrNoLessThanTheSingularValues) {
     for (const Case& of : cases()) {
         const double whole = of.weighted(of.spectrum.products());
-        const auto terms = azimuthal_svd(of.spectrum, of.weights, kMostTerms);
+        const auto terms =
+            azimuthal_svd(of.spectrum, {LightModel::uncorrelated, of.spectrum.grid()},
+                          of.weights, kMostTerms);
         double best = whole;
         for (std::size_t k = 0; k < kMostTerms; ++k) {
             best -= k < terms.size() ? terms[k].singular_value * terms[k].singular_value : 0;
