@@ -14,6 +14,8 @@ const std::vector<BuiltinScene>& builtin_scenes() {
          build_table},
         {"box", "an open box with coloured walls: interreflection", build_box},
         {"thin", "a golden knot under a grille of thin bars: glossy, fine shadows", build_thin},
+        {"street", "lamp posts, a pillar box and trees on a pavement: to walk around in",
+         build_street},
         {"mesh100k", "a displaced ball of 100,800 triangles on a ground plane", build_mesh100k},
         {"plane", "one white plane seen from above: shows its albedo under constant light",
          build_plane},

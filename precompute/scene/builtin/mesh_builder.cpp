@@ -212,4 +212,12 @@ void MeshBuilder::add_sphere(const Imath::V3f& centre, float radius, std::uint32
         });
 }
 
+void MeshBuilder::add_mesh(const Mesh& mesh, const Imath::V3f& offset) {
+    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        add_vertex(mesh.positions[i] + offset, mesh.normals[i], mesh.uvs[i]);
+    for (const auto& [a, b, c] : mesh.triangles)
+        mesh_.triangles.push_back({first + a, first + b, first + c});
+}
+
 }  // namespace relume::scene

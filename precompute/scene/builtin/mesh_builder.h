@@ -61,6 +61,9 @@ class MeshBuilder {
                   Closing along_columns,
                   const std::function<Imath::V3f(std::uint32_t, std::uint32_t)>& position);
 
+    // The triangles of another mesh of this builder's kind, moved.
+    void add_mesh(const Mesh& mesh, const Imath::V3f& offset);
+
     // Takes the mesh out; the builder is empty after.
     [[nodiscard]] Mesh take();
 

@@ -8,6 +8,7 @@ namespace relume::scene {
 [[nodiscard]] Scene build_table();
 [[nodiscard]] Scene build_box();
 [[nodiscard]] Scene build_thin();
+[[nodiscard]] Scene build_street();
 [[nodiscard]] Scene build_mesh100k();
 [[nodiscard]] Scene build_plane();
 [[nodiscard]] Scene build_bowl();

@@ -1,14 +1,11 @@
 #include "precompute/scene/builtin/wood.h"
 
 #include "precompute/scene/builtin/noise.h"
+#include "precompute/scene/builtin/painting.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace relume::scene {
 namespace {
@@ -37,29 +34,6 @@ Imath::V3f grain(float along, float across, const Tones& tones, std::uint32_t se
     const Imath::V3f fast(std::cos(angle) * 9.0F, across * 130.0F, std::sin(angle) * 9.0F);
     const float fibre = 1.0F + 0.16F * fractal_noise(fast, 2, 0.6F, seed + 17);
     return (tones.early + (tones.late - tones.early) * std::clamp(late, 0.0F, 1.0F)) * fibre;
-}
-
-template <typename Colour>
-Texture painted(const std::string& name, std::uint32_t side, Colour colour) {
-    std::vector<half> rgba;
-    rgba.reserve(std::size_t{4} * side * side);
-    for (std::uint32_t row = 0; row < side; ++row) {
-        for (std::uint32_t column = 0; column < side; ++column) {
-            const float u = (static_cast<float>(column) + 0.5F) / static_cast<float>(side);
-            const float v = 1.0F - (static_cast<float>(row) + 0.5F) / static_cast<float>(side);
-            const Imath::V3f c = colour(u, v);
-            for (int channel = 0; channel < 3; ++channel)
-                rgba.emplace_back(std::clamp(c[channel], 0.0F, 1.0F));
-            rgba.emplace_back(1.0F);
-        }
-    }
-    return {name, side, side, std::move(rgba)};
-}
-
-// 0 on the border of a cell, 1 from `width` (of the cell) inwards.
-float inside(float x, float width) {
-    const float t = std::clamp(std::min(x, 1.0F - x) / width, 0.0F, 1.0F);
-    return t * t * (3.0F - 2.0F * t);
 }
 
 }  // namespace
