@@ -40,7 +40,8 @@ std::vector<Material> street_materials() {
     std::vector<Material> materials;
     materials.push_back(textured("road", asphalt));
     materials.push_back(textured("pavement", flagstones));
-    materials.push_back({.name = "granite", .base_colour = {0.42F, 0.41F, 0.40F}});
+    materials.push_back(textured("granite", flagstones));
+    materials.back().base_colour = {1.25F, 1.3F, 1.36F};
     materials.push_back(textured("brickwork", bricks));
     materials.push_back({.name = "coping", .base_colour = {0.55F, 0.52F, 0.46F}});
     materials.push_back({.name = "paint",
@@ -72,28 +73,27 @@ Mesh with_picture_size(Mesh mesh, float metres) {
     return mesh;
 }
 
-// Slabs with a top, a bottom and sides, one beside the other.
+// Slabs with a top, a bottom and sides. Where two touch, whole sides do, so that no side is
+// half in the dark.
 void add_ground(Scene& scene) {
+    constexpr float kBottom = -0.4F;
     constexpr float kKerb = 0.16F;
-    constexpr float kThick = 0.5F;
     constexpr float kRoad = 6.5F;
     constexpr float kWalk = 5.2F;
-    MeshBuilder street("road", road);
-    street.add_box({0, -kThick / 2, kKerb + kRoad / 2}, {2 * kHalfLength, kThick, kRoad});
-    scene.meshes.push_back(with_picture_size(street.take(), 3));
-    MeshBuilder walk("pavement", pavement);
-    walk.add_box({0, kPavement - kThick / 2, -kWalk / 2}, {2 * kHalfLength, kThick, kWalk});
-    scene.meshes.push_back(with_picture_size(walk.take(), 2.4F));
-    // Kerb stones with open joints.
-    MeshBuilder kerb("kerb", granite);
-    constexpr int kStones = 15;
-    constexpr float kStone = 2 * kHalfLength / kStones;
-    for (int i = 0; i < kStones; ++i) {
-        const float x = -kHalfLength + kStone * (static_cast<float>(i) + 0.5F);
-        kerb.add_box({x, kPavement + 0.006F - kThick / 2, kKerb / 2},
-                     {kStone - 0.012F, kThick, kKerb});
-    }
-    scene.meshes.push_back(kerb.take());
+    struct Span {
+        float from, to;
+    };
+    const auto add_slab = [&](const char* name, Substance substance, Span y, Span z,
+                              float picture_size) {
+        MeshBuilder slab(name, substance);
+        slab.add_box({0, (y.from + y.to) / 2, (z.from + z.to) / 2},
+                     {2 * kHalfLength, y.to - y.from, z.to - z.from});
+        scene.meshes.push_back(with_picture_size(slab.take(), picture_size));
+    };
+    add_slab("road", road, {kBottom, 0}, {kKerb, kKerb + kRoad}, 3);
+    add_slab("foundation", granite, {kBottom, 0}, {-kWalk, kKerb}, 4.8F);
+    add_slab("kerb", granite, {0, kPavement}, {0, kKerb}, 4.8F);
+    add_slab("pavement", pavement, {0, kPavement}, {-kWalk, 0}, 2.4F);
 }
 
 // Two lengths of wall between pillars with balls on them; the gap is a gateway.
@@ -107,17 +107,20 @@ void add_wall(Scene& scene) {
     MeshBuilder wall("wall", brickwork);
     MeshBuilder pillars("pillars", brickwork);
     MeshBuilder top("coping", coping);
-    for (const auto& [from, to] : {Length{-8.6F, 1.3F}, Length{3.3F, 8.6F}}) {
+    for (const auto& [from, to] : {Length{-8.6F, 1.07F}, Length{3.53F, 8.6F}}) {
         const float middle = (from + to) / 2;
         const float length = to - from;
         wall.add_box({middle, kPavement + kHeight / 2, kZ}, {length, kHeight, kThick});
-        top.add_box({middle, kPavement + kHeight + 0.035F, kZ}, {length, 0.07F, kThick + 0.1F});
+        top.add_tapered_bar({middle, kPavement + kHeight, kZ}, {length, kThick},
+                            {middle, kPavement + kHeight + 0.075F, kZ},
+                            {length, kThick + 0.12F});
     }
     for (const float x : {1.3F, 3.3F}) {
         constexpr float kPillar = 1.75F;
         pillars.add_box({x, kPavement + kPillar / 2, kZ}, {0.46F, kPillar, 0.46F});
-        top.add_box({x, kPavement + kPillar + 0.05F, kZ}, {0.58F, 0.1F, 0.58F});
-        top.add_sphere({x, kPavement + kPillar + 0.27F, kZ}, 0.19F, 24);
+        top.add_tapered_bar({x, kPavement + kPillar, kZ}, {0.46F, 0.46F},
+                            {x, kPavement + kPillar + 0.1F, kZ}, {0.6F, 0.6F});
+        top.add_sphere({x, kPavement + kPillar + 0.285F, kZ}, 0.19F, 24);
     }
     scene.meshes.push_back(with_picture_size(wall.take(), 1));
     scene.meshes.push_back(with_picture_size(pillars.take(), 1));

@@ -2,6 +2,7 @@
 
 #include "precompute/scene/builtin/noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -164,32 +165,41 @@ void add_trunk(MeshBuilder& bark, std::uint32_t seed) {
     bark.add_tube(axis, 12, Closing::closed);
 }
 
+// One closed surface: as far from the middle as the farthest of a few balls reaches.
 void add_crown(MeshBuilder& leaves, std::uint32_t seed) {
-    constexpr std::uint32_t kSegments = 28;
+    constexpr std::uint32_t kSegments = 44;
     constexpr std::uint32_t kRows = kSegments / 2 + 1;
-    struct Cloud {
-        Imath::V3f centre;
+    constexpr Imath::V3f kMiddle(0, 2.75F, 0);
+    struct Ball {
+        Imath::V3f centre;  // from the middle
         float radius;
     };
-    const Cloud clouds[]{{{0.02F, 2.75F, 0.05F}, 0.82F},
-                         {{-0.55F, 2.45F, 0.18F}, 0.5F},
-                         {{0.52F, 2.52F, -0.12F}, 0.52F},
-                         {{0.08F, 3.35F, -0.04F}, 0.55F}};
-    for (const Cloud& cloud : clouds) {
-        leaves.add_grid(
-            kRows, kSegments, Closing::open, Closing::closed,
-            [&](std::uint32_t i, std::uint32_t j) {
-                const float theta = kPi * static_cast<float>(i) / (kRows - 1);
-                const float phi = 2 * kPi * static_cast<float>(j) / kSegments;
-                const float ring = i == 0 || i + 1 == kRows ? 0.0F : std::sin(theta);
-                const Imath::V3f out(ring * std::cos(phi), -std::cos(theta),
-                                     -ring * std::sin(phi));
-                const float bumps =
-                    0.55F * value_noise(out * 2.3F + cloud.centre * 3.1F, seed) +
-                    0.45F * fractal_noise(out * 6.0F + cloud.centre, 2, 0.6F, seed + 3);
-                return cloud.centre + out * (cloud.radius * (1.0F + 0.2F * bumps));
-            });
-    }
+    constexpr Ball kBalls[]{{{0.02F, 0, 0.05F}, 0.82F},
+                            {{-0.55F, -0.3F, 0.18F}, 0.5F},
+                            {{0.52F, -0.23F, -0.12F}, 0.52F},
+                            {{0.1F, -0.15F, 0.6F}, 0.45F},
+                            {{0.08F, 0.6F, -0.04F}, 0.55F}};
+    const auto reach = [&](const Imath::V3f& out) {
+        float farthest = 0;
+        for (const auto& [centre, radius] : kBalls) {
+            const float along = out.dot(centre);
+            const float inside = radius * radius - centre.length2() + along * along;
+            if (inside > 0)
+                farthest = std::max(farthest, along + std::sqrt(inside));
+        }
+        return farthest;
+    };
+    leaves.add_grid(kRows, kSegments, Closing::open, Closing::closed,
+                    [&](std::uint32_t i, std::uint32_t j) {
+                        const float theta = kPi * static_cast<float>(i) / (kRows - 1);
+                        const float phi = 2 * kPi * static_cast<float>(j) / kSegments;
+                        const float ring = i == 0 || i + 1 == kRows ? 0.0F : std::sin(theta);
+                        const Imath::V3f out(ring * std::cos(phi), -std::cos(theta),
+                                             -ring * std::sin(phi));
+                        const float bumps = 0.5F * value_noise(out * 2.6F, seed) +
+                                            0.5F * fractal_noise(out * 6.5F, 2, 0.6F, seed + 3);
+                        return kMiddle + out * (reach(out) * (1.0F + 0.16F * bumps));
+                    });
 }
 
 }  // namespace relume::scene

@@ -122,6 +122,37 @@ TEST(Builtin, TableHasAPlantAndGlossyThings) {
     EXPECT_EQ(models.count(BsdfModel::lambert), 1U);
 }
 
+// Every mesh of the street is closed and faces outwards: its edges, by position, run as often
+// one way as the other, and what it encloses is a volume above zero.
+TEST(Builtin, StreetIsClosedAndFacesOutwards) {
+    using Point = std::array<float, 3>;
+    const Scene& scene = built("street");
+    std::set<BsdfModel> models;
+    for (const Mesh& mesh : scene.meshes) {
+        models.insert(scene.materials[mesh.material].model);
+        std::map<std::pair<Point, Point>, int> edges;
+        double volume = 0;
+        const auto point = [&](std::uint32_t i) {
+            const Imath::V3f& p = mesh.positions[i];
+            return Point{p.x, p.y, p.z};
+        };
+        for (const Triangle& t : mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                ++edges[{point(t[k]), point(t[(k + 1) % 3])}];
+                --edges[{point(t[(k + 1) % 3]), point(t[k])}];
+            }
+            volume += Imath::V3d(mesh.positions[t[0]])
+                          .dot(Imath::V3d(mesh.positions[t[1]])
+                                   .cross(Imath::V3d(mesh.positions[t[2]]))) /
+                      6;
+        }
+        for (const auto& [edge, balance] : edges)
+            ASSERT_EQ(balance, 0) << mesh.name;
+        EXPECT_GT(volume, 0) << mesh.name;
+    }
+    EXPECT_EQ(models, (std::set{BsdfModel::lambert, BsdfModel::phong, BsdfModel::ggx}));
+}
+
 TEST(Builtin, BowlIsWhiteAndFlat) {
     const Scene& scene = built("bowl");
     EXPECT_EQ(scene.materials[0].base_colour, Imath::V3f(1));

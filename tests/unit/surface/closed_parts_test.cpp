@@ -78,12 +78,24 @@ TEST(SeenSides, OfSolidsThatShareAnEdgeAreTheirOwn) {
     EXPECT_EQ(shape.sides(), expected);
 }
 
+// Two solids that touch with a whole side, whose edges then have four triangles each.
+TEST(SeenSides, OfSolidsThatShareASideAreOutside) {
+    Shape shape = solid();
+    shape.points.push_back({0, 0, -1});
+    const auto second = tetrahedron({0, 2, 1}, 4);
+    shape.triangles.insert(shape.triangles.end(), second.begin(), second.end());
+    EXPECT_EQ(shape.sides(), std::vector(8, SeenSides::front));
+}
+
 TEST(SeenSides, OfAFinOnASolidAreBoth) {
     Shape shape = solid();
     shape.points.push_back({0.5F, -1, -1});
     shape.triangles.push_back({0, 1, 4});
     auto expected = std::vector(4, SeenSides::front);
     expected.push_back(SeenSides::both);
+    EXPECT_EQ(shape.sides(), expected);
+    std::reverse(shape.triangles.begin(), shape.triangles.end());
+    std::reverse(expected.begin(), expected.end());
     EXPECT_EQ(shape.sides(), expected);
 }
 

@@ -2,6 +2,7 @@
 #include "precompute/bake/receivers/vertex/refinement.h"
 
 #include "precompute/bake/base/error.h"
+#include "precompute/scene/builtin.h"
 #include "tests/unit/surface/small_scenes.h"
 #include "tests/unit/surface/surface_laws.h"
 
@@ -81,6 +82,15 @@ TEST(Refinement, LawsHoldOfDoublesAndTrianglesWithoutArea) {
     scene.meshes[0].triangles.push_back(scene.meshes[0].triangles[0]);
     scene.meshes[0].triangles.push_back({0, 1, 1});
     expect_laws(scene);
+}
+
+// Boxes that touch, spheres, tubes: all of it is closed, and has one side.
+TEST(Refinement, LawsHoldOfTheStreet) {
+    const scene::Scene scene = scene::build_builtin_scene("street");
+    const RefinedSurface surface = refined(scene, stepped_light(), 15'000);
+    EXPECT_EQ(surface.report.two_sided_triangles, 0U);
+    EXPECT_LT(surface.report.start_vertices, 10'000U);
+    expect_lawful(scene, surface);
 }
 
 // Each corner of a box has three normals, and so has each new vertex at an edge two.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace relume::bake {
@@ -100,6 +101,37 @@ struct Part {
     }
 };
 
+// Joins triangles of opposite senses two by two, first those that are closest in the order in
+// which they are given: solids that touch are mostly given one after the other.
+void join_pairs(std::span<const DirectedEdge> edge, Parts& parts) {
+    constexpr std::size_t kMost = 16;
+    if (edge.size() > kMost) {
+        return;
+    }
+    struct Pair {
+        std::uint32_t apart;
+        std::size_t first, second;
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < edge.size(); ++i) {
+        for (std::size_t j = i + 1; j < edge.size(); ++j) {
+            if (edge[i].sense != edge[j].sense) {
+                pairs.push_back({edge[j].triangle - edge[i].triangle, i, j});
+            }
+        }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+        return std::tuple(a.apart, a.first) < std::tuple(b.apart, b.first);
+    });
+    std::array<bool, kMost> is_joined{};
+    for (const auto& [apart, first, second] : pairs) {
+        if (!is_joined[first] && !is_joined[second]) {
+            parts.join(edge[first].triangle, edge[second].triangle);
+            is_joined[first] = is_joined[second] = true;
+        }
+    }
+}
+
 std::array<Imath::V3d, 3> corners_of(const PointTriangles& surface, std::size_t triangle) {
     const auto& [a, b, c] = surface.triangles[triangle];
     return {Imath::V3d(surface.points[a]), Imath::V3d(surface.points[b]),
@@ -157,11 +189,7 @@ std::vector<Part> measured_parts(const PointTriangles& surface,
 std::vector<SeenSides> seen_sides(const PointTriangles& surface, const Imath::V3f& eye) {
     const std::vector<DirectedEdge> edges = sorted_edges(surface);
     Parts parts(surface.triangles.size());
-    for_each_edge(edges, [&](std::span<const DirectedEdge> edge) {
-        if (edge.size() == 2 && edge[0].sense != edge[1].sense) {
-            parts.join(edge[0].triangle, edge[1].triangle);
-        }
-    });
+    for_each_edge(edges, [&](std::span<const DirectedEdge> edge) { join_pairs(edge, parts); });
     std::vector<Part> measured = measured_parts(surface, edges, parts);
     const Imath::V3d viewer(eye);
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {

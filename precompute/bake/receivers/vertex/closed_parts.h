@@ -22,11 +22,11 @@ enum class SeenSides : std::uint8_t {
     back
 };
 
-// By triangle. Parts are triangles that are joined by edges which exactly two triangles share,
-// one running each way. A part is solid where all its edges are balanced within it, and is seen
-// from outside alone, whichever way its triangles face. So are two boxes that touch along an
-// edge, and a box with a fin; of the fin both sides are seen. A shell around `eye` is a room,
-// of which both sides are seen.
+// By triangle. Parts are triangles that are joined at edges, two by two, one running each way;
+// at an edge that several pairs share, as where boxes touch, those are joined that are closest
+// in the order of triangles. A part is solid where all its edges are balanced within it, and is
+// seen from outside alone, whichever way its triangles face; a fin on a solid is a part of its
+// own, of which both sides are seen. A shell around `eye` is a room: both its sides are seen.
 [[nodiscard]] std::vector<SeenSides> seen_sides(const PointTriangles& surface,
                                                 const Imath::V3f& eye);
 
