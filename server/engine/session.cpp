@@ -60,6 +60,22 @@ void Session::set_target(std::span<const float> coefficients) {
     exact_ = false;
 }
 
+void Session::set_block_weights(std::span<const float> weights) {
+    error_.set_block_weights(weights);
+    planner_.set_block_weights(weights);
+    const TransportOperator& of = workspace_->transport_operator();
+    runs_looked_at_.assign(of.run_count(), 0);
+    for (std::size_t run = 0; run < of.run_count(); ++run) {
+        const auto [first, count] = of.run(run);
+        const auto blocks = weights.subspan(first, count);
+        runs_looked_at_[run] =
+            std::any_of(blocks.begin(), blocks.end(), [](float weight) { return weight > 0; })
+                ? 1
+                : 0;
+    }
+    sums_.look_at(runs_looked_at_, signal_.approximation());
+}
+
 double Session::stated_error() const {
     return exact_ ? 0 : error_.relative_l2();
 }
@@ -323,6 +339,9 @@ void Session::advance_full_products(std::span<SessionStep* const> steps, std::si
 
 void Session::full_product_is_done(StepReport& report) {
     full_product_.exchange(sums_);
+    if (!runs_looked_at_.empty()) {
+        sums_.look_at(runs_looked_at_, signal_.approximation());
+    }
     if (target_is_new_) {
         estimates_are_stale_ = true;
         report.applied = static_cast<std::uint32_t>(workspace_->columns().count());

@@ -58,12 +58,10 @@ class Session {
     void set_strategy(relighting::Strategy strategy) { strategy_ = strategy; }
 
     // How much the receivers of each block count in the image, [blocks], not negative and not
-    // all zero: by it errors are predicted and stated. All count alike at first. It changes no
-    // image that is exact.
-    void set_block_weights(std::span<const float> weights) {
-        error_.set_block_weights(weights);
-        planner_.set_block_weights(weights);
-    }
+    // all zero: by it errors are predicted and stated. All count alike at first. While the
+    // image changes, sums of blocks that count for nothing may be left as they are; those that
+    // count again are brought up to date at once. An exact image is exact in all blocks.
+    void set_block_weights(std::span<const float> weights);
 
     // One image's worth of work.
     // - After a new target: the method's resets, then the most important differences between
@@ -101,7 +99,8 @@ class Session {
     [[nodiscard]] std::span<const float> approximation() const {
         return signal_.approximation();
     }
-    // What a view makes the image of: [blocks][3][256], as TransportOperator says.
+    // What a view makes the image of: [blocks][3][256], as TransportOperator says. Those of
+    // blocks that count for nothing may be of an earlier image, unless this one is exact.
     [[nodiscard]] std::span<const float> sums() const { return sums_.total(); }
 
   private:
@@ -155,6 +154,7 @@ class Session {
     CostModel cost_;          // of columns that are chosen
     CostModel product_cost_;  // of the full product, of which sessions share more
     FullProduct full_product_;
+    std::vector<std::uint8_t> runs_looked_at_;     // of the operator; none: all
     TransportOperator::Weights renewing_weights_;  // none until a band has drifted
     std::uint32_t remaining_ = 0;
     double negligible_ = kSurelyNegligible;  // the part of the target that estimates leave out

@@ -40,6 +40,8 @@ BandSums::BandSums(const TransportOperator& of)
       bands_(of.columns().band_count()),
       total_(of.block_count()),
       loose_(of),
+      looked_at_(of.run_count(), 1),
+      stale_(of.run_count(), 0),
       drift_(of.columns().band_count() + 1),
       occupied_(of.block_count()),
       energies_(of.block_count() * (of.columns().band_count() + std::size_t{1})) {}
@@ -71,6 +73,52 @@ void BandSums::update_together(std::span<const Update> updates) {
     for (const Update& update : updates) {
         update.sums->end_update();
     }
+}
+
+void BandSums::look_at(std::vector<std::uint8_t> runs, std::span<const float> approximation) {
+    looked_at_ = std::move(runs);
+    std::vector<std::size_t> behind;
+    for (std::size_t run = 0; run < stale_.size(); ++run) {
+        if (stale_[run] != 0 && looked_at_[run] != 0) {
+            behind.push_back(run);
+        }
+    }
+    if (behind.empty()) {
+        return;
+    }
+    // Bands hold what the total holds, but for loose columns.
+    std::vector<float> held(approximation.begin(), approximation.end());
+    const std::size_t count = operator_->columns().count();
+    for (const ColumnChange& loose : loose_.columns()) {
+        for (std::size_t c = 0; c < kColours; ++c) {
+            held[c * count + loose.column] = loose.from[c];
+        }
+    }
+    TransportOperator::Weights in_bands;
+    operator_->set_weights(held, in_bands);
+    tbb::parallel_for(std::size_t{0}, behind.size(),
+                      [&](std::size_t i) { catch_up(behind[i], in_bands); });
+}
+
+void BandSums::catch_up(std::size_t run, const TransportOperator::Weights& in_bands) {
+    const auto [first, count] = operator_->run(run);
+    for (std::uint32_t block = first; block < first + count; ++block) {
+        for (std::uint32_t band = 0; band < bands_.size(); ++band) {
+            clear_band(block, band);
+            if (!bands_[band].empty()) {
+                const TransportOperator::Member member{.weights = &in_bands,
+                                                       .sums = bands_[band].block(block)};
+                operator_->multiply(block, band, {&member, 1});
+                occupied_[block] |= operator_->bands_of_block(block) & band_bit(band);
+            }
+        }
+        sum_bands(block);
+    }
+    operator_->add(run, loose_.columns(), {.sums = total_.block(first)});
+    for (std::uint32_t block = first; block < first + count; ++block) {
+        measure(block, 2 * total_bit() - 1);
+    }
+    stale_[run] = 0;
 }
 
 void BandSums::begin_update(const Update& update) {
@@ -114,6 +162,10 @@ void BandSums::begin_update(const Update& update) {
 }
 
 void BandSums::update_run(std::size_t run) {
+    if (looked_at_[run] == 0) {
+        stale_[run] = 1;
+        return;
+    }
     const auto [first, count] = operator_->run(run);
     if (step_.begins_anew || step_.bands_to_remove != 0) {
         for (std::uint32_t block = first; block < first + count; ++block) {
@@ -170,6 +222,9 @@ void BandSums::rebuild_together(std::uint32_t first_block,
             images.make_band(band);
         }
         images.loose_.clear();
+        // They may have been somebody else's.
+        std::fill(images.looked_at_.begin(), images.looked_at_.end(), std::uint8_t{1});
+        std::fill(images.stale_.begin(), images.stale_.end(), std::uint8_t{0});
         std::fill(images.drift_.begin(), images.drift_.end(), Drift::of_unknown_norm());
     }
     tbb::parallel_for(first_block, last_block,
@@ -316,6 +371,9 @@ double BandSums::rounding_error_of_bands() const {
 void BandSums::renew_total() {
     const std::uint32_t all_images = 2 * total_bit() - 1;
     tbb::parallel_for(std::size_t{0}, operator_->run_count(), [&](std::size_t run) {
+        if (stale_[run] != 0) {
+            return;
+        }
         const auto [first, count] = operator_->run(run);
         for (std::uint32_t block = first; block < first + count; ++block) {
             sum_bands(block);

@@ -33,6 +33,12 @@ class BandSums {
     // taken out the total is exactly zero.
     void update(std::uint32_t bands_to_clear, std::span<const ColumnChange> changes);
 
+    // Which runs of the operator somebody looks at, [runs], not 0 where so; all at first.
+    // Updates pass by the others, and what they miss is made up for here, when they are looked
+    // at again: from the approximation, [3][N], that all updates so far have led to. Sums of
+    // runs that are not looked at say nothing.
+    void look_at(std::vector<std::uint8_t> runs, std::span<const float> approximation);
+
     [[nodiscard]] std::span<const float> total() const { return total_.sums(); }
     // Bytes of the columns that the last update added to sums, or took out of them.
     [[nodiscard]] std::uint64_t bytes_added() const { return bytes_added_; }
@@ -88,6 +94,7 @@ class BandSums {
         LooseColumns::Split changes;
     };
 
+    void catch_up(std::size_t run, const TransportOperator::Weights& in_bands);
     void begin_update(const Update& update);
     void update_run(std::size_t run);
     void end_update();
@@ -111,6 +118,8 @@ class BandSums {
     std::vector<ReceiverSums> bands_;  // empty until something is in it
     ReceiverSums total_;
     LooseColumns loose_;
+    std::vector<std::uint8_t> looked_at_;  // [runs]
+    std::vector<std::uint8_t> stale_;      // [runs], not 0 where updates have been missed
     Step step_;
     std::uint64_t bytes_added_ = 0;
     std::vector<Drift> drift_;             // [bands + 1], the last of the total
