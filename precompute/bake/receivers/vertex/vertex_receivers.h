@@ -34,9 +34,8 @@ class VertexReceivers final : public Receivers {
     [[nodiscard]] transport::BlockBasis block_basis() const override {
         return transport::BlockBasis::haar_line;
     }
-    [[nodiscard]] std::uint32_t clusters_per_shard() const override {
-        return kClustersPerGroup;
-    }
+    // Few: while a view moves, a server passes by shards that it does not see.
+    [[nodiscard]] std::uint32_t clusters_per_shard() const override { return 4; }
     [[nodiscard]] std::optional<std::size_t> receiver_at(std::uint32_t cluster,
                                                          std::uint32_t slot) const override;
     [[nodiscard]] Receiver look(std::size_t receiver) const override;
