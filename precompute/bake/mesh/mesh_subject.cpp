@@ -21,10 +21,20 @@ MeshMaterials materials_of(const scene::Scene& scene, const BakeParameters& para
          .terms = parameters.terms > 0 ? std::optional(parameters.terms) : std::nullopt});
 }
 
+std::vector<const brdf::FactoredBrdf*> brdfs_of(const MeshMaterials& materials) {
+    std::vector<const brdf::FactoredBrdf*> brdfs;
+    for (const factors::Factorisation& factored : materials.factored) {
+        brdfs.push_back(&factored.brdf);
+    }
+    return brdfs;
+}
+
 RefinedSurface refined(const RayCaster& caster,
+                       const MeshMaterials& materials,
                        const BakeParameters& parameters,
                        const std::function<bool()>& should_stop) {
-    const LightProbe probe(caster, {});
+    const std::vector<const brdf::FactoredBrdf*> brdfs = brdfs_of(materials);
+    const LightProbe probe(caster, brdfs, {});
     return refine_surface(
         caster.scene(), probe,
         {.most_vertices = parameters.vertices,
@@ -36,14 +46,6 @@ RefinedSurface refined(const RayCaster& caster,
          }});
 }
 
-std::vector<const brdf::FactoredBrdf*> brdfs_of(const MeshMaterials& materials) {
-    std::vector<const brdf::FactoredBrdf*> brdfs;
-    for (const factors::Factorisation& factored : materials.factored) {
-        brdfs.push_back(&factored.brdf);
-    }
-    return brdfs;
-}
-
 }  // namespace
 
 MeshSubject::MeshSubject(const RayCaster& caster,
@@ -53,7 +55,7 @@ MeshSubject::MeshSubject(const RayCaster& caster,
       parameters_(parameters),
       camera_(scene_.camera, parameters.width, parameters.height),
       materials_(materials_of(scene_, parameters)),
-      surface_(refined(caster, parameters, should_stop)),
+      surface_(refined(caster, materials_, parameters, should_stop)),
       vertices_(scene_, surface_, brdfs_of(materials_)) {}
 
 void MeshSubject::describe(transport::Manifest& manifest) const {

@@ -2,9 +2,12 @@
 
 #include "precompute/bake/blocks/light_model.h"
 #include "precompute/scene/surface_point.h"
+#include "protocol/basis/cpu_clones.h"
+#include "protocol/brdf/local_frame.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace relume::bake {
 namespace {
@@ -14,27 +17,48 @@ namespace {
 constexpr std::uint64_t kSeed = 0;
 const JitterShift kNoShift{};
 
-}  // namespace
+// Of a row, the numbers that hold what the constant light makes, one for each term.
+constexpr std::size_t kConstants = brdf::FactoredBrdf::kMostTerms;
 
-LightProbe::LightProbe(const RayCaster& caster, const Options& options)
-    : texels_(options.face_resolution, kSeed),
-      visibility_(caster, texels_, options.edge_samples),
-      projection_(
-          basis::CubemapProjection::onto(basis::CubemapBasis::haar(options.face_resolution))) {
-    const std::vector<float> deviations = natural_deviations(projection_->basis());
-    for (std::size_t j = 0; j < deviations.size(); ++j) {
-        const std::uint64_t bits = transport::mix_bits(j);
-        const auto number = static_cast<std::uint32_t>(1 + (bits >> 1U) % (kNumbers - 1));
-        sketch_.push_back({number, (bits & 1U) != 0 ? deviations[j] : -deviations[j]});
-    }
-    // Where the deviation is zero the constant light has a value.
-    for (const auto& [index, value] : projection_->basis().constant_light()) {
-        sketch_[index] = {0, value};
+// A texel that the horizon cuts has its middle below it.
+constexpr float kJustAboveHorizon = 1e-4F;
+
+RELUME_CPU_CLONES void turn(const brdf::Frame& frame,
+                            const std::array<std::vector<float>, 3>& world,
+                            std::array<std::vector<float>, 3>& local) {
+    const std::size_t count = world[0].size();
+    const float* x = world[0].data();
+    const float* y = world[1].data();
+    const float* z = world[2].data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Imath::V3f direction = frame.local_from_world({x[i], y[i], z[i]});
+        local[0][i] = direction.x;
+        local[1][i] = direction.y;
+        local[2][i] = std::max(direction.z, kJustAboveHorizon);
     }
 }
 
-std::uint64_t LightProbe::write_row(const ProbePoint& point, std::span<float> row) const {
-    Scratch& scratch = scratch_.local();
+}  // namespace
+
+LightProbe::LightProbe(const RayCaster& caster,
+                       std::span<const brdf::FactoredBrdf* const> brdfs,
+                       const Options& options)
+    : texels_(options.face_resolution, kSeed),
+      visibility_(caster, texels_, options.edge_samples),
+      projection_(
+          basis::CubemapProjection::onto(basis::CubemapBasis::haar(options.face_resolution))),
+      brdfs_(brdfs.begin(), brdfs.end()),
+      constant_light_(projection_->basis().constant_light()),
+      deviations_(natural_deviations(projection_->basis())) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        texel_direction_[axis].resize(texels_.size());
+    }
+    texels_.scatter(texels_.direction_x(), texel_direction_[0]);
+    texels_.scatter(texels_.direction_y(), texel_direction_[1]);
+    texels_.scatter(texels_.direction_z(), texel_direction_[2]);
+}
+
+std::uint64_t LightProbe::receive(const ProbePoint& point, Scratch& scratch) const {
     scene::SurfacePoint white;
     white.position = point.position;
     // Facets below the interpolated horizon stand in the way of their own rays.
@@ -48,17 +72,48 @@ std::uint64_t LightProbe::write_row(const ProbePoint& point, std::span<float> ro
     visibility_.compute(point.origins, 1, kNoShift, scratch.reflection.grey, scratch.open,
                         scratch.visibility);
     for (std::size_t i = 0; i < scratch.open.size(); ++i) {
-        scratch.open[i] *= scratch.reflection.grey[i];
+        scratch.open[i] *= std::numbers::pi_v<float> * scratch.reflection.grey[i];
     }
-    scratch.texels.resize(texels_.size());
-    scratch.coefficients.resize(projection_->basis().coefficient_count());
-    texels_.scatter(scratch.open, scratch.texels);
-    projection_->project_response(scratch.texels, scratch.coefficients);
-    std::fill(row.begin(), row.end(), 0.0F);
-    for (std::size_t j = 0; j < sketch_.size(); ++j) {
-        row[sketch_[j].number] += sketch_[j].factor * scratch.coefficients[j];
-    }
+    scratch.irradiance.resize(texels_.size());
+    texels_.scatter(scratch.open, scratch.irradiance);
     return scratch.visibility.rays - before;
+}
+
+void LightProbe::add_term(std::uint32_t term, Scratch& scratch, std::span<float> row) const {
+    scratch.coefficients.resize(deviations_.size());
+    projection_->project_response(scratch.weighted, scratch.coefficients);
+    for (const auto& [index, value] : constant_light_) {
+        row[term] += value * scratch.coefficients[index];
+    }
+    const std::uint64_t seed = std::uint64_t{term} << 32U;
+    for (std::size_t j = 0; j < deviations_.size(); ++j) {
+        const std::uint64_t bits = transport::mix_bits(seed + j);
+        const std::size_t number = kConstants + (bits >> 1U) % (kNumbers - kConstants);
+        const float value = deviations_[j] * scratch.coefficients[j];
+        row[number] += (bits & 1U) != 0 ? value : -value;
+    }
+}
+
+std::uint64_t LightProbe::write_row(const ProbePoint& point, std::span<float> row) const {
+    Scratch& scratch = scratch_.local();
+    const std::uint64_t rays = receive(point, scratch);
+    const brdf::DirectionTable& g = brdfs_[point.material]->g;
+    const std::uint32_t terms = g.shape().depth;
+    for (auto& plane : scratch.local) {
+        plane.resize(texels_.size());
+    }
+    turn(brdf::local_frame(point.normal), texel_direction_, scratch.local);
+    scratch.terms.resize(texels_.size() * terms);
+    g.evaluate({scratch.local[0], scratch.local[1], scratch.local[2]}, scratch.terms);
+    scratch.weighted.resize(texels_.size());
+    std::fill(row.begin(), row.end(), 0.0F);
+    for (std::uint32_t term = 0; term < terms; ++term) {
+        for (std::size_t i = 0; i < scratch.weighted.size(); ++i) {
+            scratch.weighted[i] = scratch.irradiance[i] * scratch.terms[i * terms + term];
+        }
+        add_term(term, scratch, row);
+    }
+    return rays;
 }
 
 }  // namespace relume::bake

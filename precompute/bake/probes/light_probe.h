@@ -1,4 +1,4 @@
-// How a white surface answers to natural light, as refinement asks.
+// How a surface answers to natural light, as refinement asks.
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"
@@ -7,9 +7,11 @@
 #include "precompute/bake/rows/reflection.h"
 #include "precompute/bake/rows/visibility.h"
 #include "protocol/basis/cubemap_projection.h"
+#include "protocol/brdf/factored_brdf.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,12 +20,15 @@
 
 namespace relume::bake {
 
-// Lambert's response times visibility, in the Haar basis of a cubemap that is coarser than the
-// light, as differences of bright and dark are seen long before those of single texels. Its
-// mean square under natural light (light_model.h) is the square of what the constant light
-// makes, plus the squares of all coefficients times their deviations. The latter are added up
-// into kNumbers − 1 numbers with random signs [Charikar02]; lengths of rows and of their
-// differences are kept within a few per cent.
+// Rows are those of the terms of the point's material, direct light alone, in the Haar basis of
+// a cubemap that may be coarser than the light: differences of bright and dark are seen long
+// before those of single texels. The mean square of a term under natural light (light_model.h)
+// is the square of what the constant light makes, plus the squares of all coefficients times
+// their deviations. Terms are scaled so that their squares add up to that of the image
+// (factored_brdf.h), and so a bright material weighs more than a dark one.
+//
+// The coefficients of all terms are added up into a few numbers with random signs [Charikar02].
+// Lengths of rows and of their differences are kept within a few per cent.
 class LightProbe final : public SurfaceProbe {
   public:
     static constexpr std::size_t kNumbers = 128;
@@ -32,8 +37,11 @@ class LightProbe final : public SurfaceProbe {
         std::uint32_t edge_samples = 4;      // further rays for a texel at a shadow's edge
     };
 
-    // Keeps a reference to the caster.
-    LightProbe(const RayCaster& caster, const Options& options);
+    // `brdfs` are those of the scene's materials, [materials]; a material without a vertex may
+    // have null. Keeps references to all.
+    LightProbe(const RayCaster& caster,
+               std::span<const brdf::FactoredBrdf* const> brdfs,
+               const Options& options);
 
     [[nodiscard]] std::size_t row_size() const override { return kNumbers; }
     std::uint64_t write_row(const ProbePoint& point, std::span<float> row) const override;
@@ -42,20 +50,25 @@ class LightProbe final : public SurfaceProbe {
     struct Scratch {
         Reflection reflection;
         Visibility::Scratch visibility;
-        std::vector<float> open;
-        std::vector<float> texels;
+        std::vector<float> open;                  // by place
+        std::vector<float> irradiance;            // by texel, as are those below
+        std::array<std::vector<float>, 3> local;  // directions in the point's frame
+        std::vector<float> terms;                 // [texels][terms]
+        std::vector<float> weighted;
         std::vector<float> coefficients;
     };
-    // Where a coefficient is added, and times what.
-    struct SketchEntry {
-        std::uint32_t number = 0;
-        float factor = 0;
-    };
+
+    // How much light of each texel arrives; returns the rays cast.
+    std::uint64_t receive(const ProbePoint& point, Scratch& scratch) const;
+    void add_term(std::uint32_t term, Scratch& scratch, std::span<float> row) const;
 
     LightTexels texels_;
     Visibility visibility_;
     std::shared_ptr<const basis::CubemapProjection> projection_;
-    std::vector<SketchEntry> sketch_;  // by coefficient
+    std::vector<const brdf::FactoredBrdf*> brdfs_;
+    std::array<std::vector<float>, 3> texel_direction_;
+    std::vector<basis::CubemapBasis::Term> constant_light_;
+    std::vector<float> deviations_;
     mutable tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 

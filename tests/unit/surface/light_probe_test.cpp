@@ -17,6 +17,13 @@
 namespace relume::bake {
 namespace {
 
+// Every material is white.
+const std::vector<const brdf::FactoredBrdf*>& white() {
+    static const brdf::FactoredBrdf lambert = brdf::factored_lambert("white", {1, 1, 1});
+    static const std::vector<const brdf::FactoredBrdf*> brdfs(4, &lambert);
+    return brdfs;
+}
+
 ProbePoint floor_point(float x, float z) {
     ProbePoint point{.position = {x, 0, z}, .normal = {0, 1, 0}};
     point.origins.fill({x, 1e-5F, z});
@@ -40,21 +47,21 @@ scene::Scene floor_and_box(float side, const Imath::V3f& centre, const Imath::V3
 TEST(LightProbe, AnUnoccludedSurfaceShowsTheConstantLight) {
     const scene::Scene scene = scene_of({square_mesh(4)});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {});
+    const LightProbe probe(caster, white(), {});
     EXPECT_NEAR(row_of(probe, floor_point(0, 0))[0], 1, 1e-3);
 }
 
 TEST(LightProbe, WhatSeesTheSameHasTheSameRow) {
     const scene::Scene scene = scene_of({square_mesh(4)});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {});
+    const LightProbe probe(caster, white(), {});
     EXPECT_EQ(row_of(probe, floor_point(0, 0)), row_of(probe, floor_point(1, -1)));
 }
 
 TEST(LightProbe, WhatSeesNothingIsDark) {
     const scene::Scene scene = floor_and_box(4, {0, 0.5F, 0}, {2, 1, 2});
     const RayCaster caster(scene);
-    EXPECT_EQ(squared_length(row_of(LightProbe(caster, {}), floor_point(0, 0))), 0);
+    EXPECT_EQ(squared_length(row_of(LightProbe(caster, white(), {}), floor_point(0, 0))), 0);
 }
 
 // The mean square over a thousand natural lights is the squared length of the row, and the
@@ -62,7 +69,7 @@ TEST(LightProbe, WhatSeesNothingIsDark) {
 TEST(LightProbe, LengthsAreThoseUnderNaturalLight) {
     const scene::Scene scene = floor_and_box(8, {0, 1, 0}, {1, 0.2F, 1});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {.face_resolution = 8, .edge_samples = 0});
+    const LightProbe probe(caster, white(), {.face_resolution = 8, .edge_samples = 0});
     // The response by coefficients, texel by texel, from a caster's single rays.
     const auto projection = basis::CubemapProjection::onto(basis::CubemapBasis::haar(8));
     const LightTexels texels(8, 0);
@@ -104,10 +111,60 @@ TEST(LightProbe, LengthsAreThoseUnderNaturalLight) {
     EXPECT_NEAR(squared_length(off), off2, 0.2 * off2);
 }
 
+// One term that falls off around the normal as cos θ to a power.
+brdf::FactoredBrdf lobe(float power, std::uint32_t terms = 1) {
+    brdf::FactoredBrdf brdf;
+    constexpr std::uint32_t kRows = 65;
+    const brdf::TableShape shape{.rows = kRows, .columns = 1, .depth = terms};
+    std::vector<float> values;
+    for (std::uint32_t row = 0; row < kRows; ++row) {
+        const auto cosine = static_cast<float>(std::cos(shape.theta_from_row(row)));
+        for (std::uint32_t term = 0; term < terms; ++term) {
+            values.push_back(std::pow(cosine, power * static_cast<float>(term + 1)));
+        }
+    }
+    brdf.name = "lobe";
+    brdf.terms = terms;
+    brdf.g = brdf::DirectionTable(shape, values);
+    brdf.h = brdf::DirectionTable({.rows = 2, .columns = 1, .depth = terms},
+                                  std::vector<float>(2 * std::size_t{terms}, 1));
+    return brdf;
+}
+
+TEST(LightProbe, SquaresOfTermsAddUp) {
+    const scene::Scene scene = floor_and_box(8, {0, 1, 0}, {1, 0.2F, 1});
+    const RayCaster caster(scene);
+    const brdf::FactoredBrdf both = lobe(2, 2);
+    const brdf::FactoredBrdf first = lobe(2);
+    const brdf::FactoredBrdf second = lobe(4);
+    const auto length2 = [&](const brdf::FactoredBrdf& brdf) {
+        const std::vector<const brdf::FactoredBrdf*> brdfs{&brdf};
+        return squared_length(row_of(LightProbe(caster, brdfs, {}), floor_point(0.3F, 0.1F)));
+    };
+    const double sum = length2(first) + length2(second);
+    EXPECT_NEAR(length2(both), sum, 0.1 * sum);
+}
+
+// The narrower a lobe, the more its light changes from normal to normal.
+TEST(LightProbe, SharpMaterialsAreRefinedMore) {
+    const scene::Scene scene = scene_of({ball_mesh(8)});
+    const RayCaster caster(scene);
+    const auto vertices = [&](float power) {
+        const brdf::FactoredBrdf brdf = lobe(power);
+        const std::vector<const brdf::FactoredBrdf*> brdfs{&brdf};
+        const LightProbe probe(caster, brdfs, {});
+        const RefinedSurface surface =
+            refine_surface(scene, probe, {.most_vertices = 5000, .target_error = 0.03});
+        EXPECT_TRUE(surface.report.meets_target);
+        return surface.vertex_count();
+    };
+    EXPECT_GT(vertices(32), 4 * vertices(0));
+}
+
 TEST(LightProbe, AnUnoccludedPlaneIsNotRefined) {
     const scene::Scene scene = scene_of({square_mesh(20)});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {});
+    const LightProbe probe(caster, white(), {});
     const RefinedSurface surface =
         refine_surface(scene, probe, {.most_vertices = 5000, .target_error = 0});
     EXPECT_EQ(surface.vertex_count(), surface.report.start_vertices);
@@ -117,7 +174,7 @@ TEST(LightProbe, AnUnoccludedPlaneIsNotRefined) {
 TEST(LightProbe, APlaneUnderAnOccluderIsRefinedAtTheShadow) {
     const scene::Scene scene = floor_and_box(40, {0, 0.3F, 0}, {2, 0.1F, 2});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {});
+    const LightProbe probe(caster, white(), {});
     const RefinedSurface surface =
         refine_surface(scene, probe, {.most_vertices = 1500, .target_error = 0});
     expect_lawful(scene, surface);
@@ -144,9 +201,9 @@ TEST(LightProbe, APlaneUnderAnOccluderIsRefinedAtTheShadow) {
 TEST(LightProbe, MoreVerticesLowerTheError) {
     const scene::Scene scene = floor_and_box(12, {0, 0.5F, 0}, {1, 1, 1});
     const RayCaster caster(scene);
-    const LightProbe probe(caster, {});
+    const LightProbe probe(caster, white(), {});
     double before = std::numeric_limits<double>::infinity();
-    for (std::size_t most = 200; most <= 3200; most *= 2) {
+    for (std::size_t most = 200; most <= 1600; most *= 2) {
         const double error =
             refine_surface(scene, probe, {.most_vertices = most, .target_error = 0})
                 .report.interpolation_error;
