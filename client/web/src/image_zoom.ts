@@ -61,6 +61,8 @@ export class ImageZoom {
         /** Pixels across the image; 0 before the first. */
         private readonly imageWidth: () => number,
         private readonly changed: (words: string) => void,
+        /** Whether two fingers zoom and pan: elsewhere they move the camera. */
+        private readonly takesFingers: () => boolean,
     ) {
         stage.addEventListener("wheel", (event) => this.turnWheel(event), { passive: false });
         // In the capture phase, so that a pan is not taken for turning the light.
@@ -116,6 +118,10 @@ export class ImageZoom {
         this.changed(`${Math.round(this.screenPixels * 100)} %`);
     }
 
+    private pansBy(event: PointerEvent): boolean {
+        return event.button === 1 || (event.button === 0 && this.spaceIsDown);
+    }
+
     private turnWheel(event: WheelEvent): void {
         if (!event.ctrlKey) return;
         event.preventDefault();
@@ -125,12 +131,12 @@ export class ImageZoom {
 
     private press(event: PointerEvent): void {
         if (event.pointerType === "touch") {
+            if (!this.takesFingers()) return;
             this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
             if (this.fingers.size > 1) event.stopPropagation();
             return;
         }
-        const pans = event.button === 1 || (event.button === 0 && this.spaceIsDown);
-        if (!pans || this.pan !== null) return;
+        if (!this.pansBy(event) || this.pan !== null) return;
         event.preventDefault();
         event.stopPropagation();
         this.pan = { pointer: event.pointerId, at: { x: event.clientX, y: event.clientY } };

@@ -12,9 +12,9 @@ import {
     type RoomState,
 } from "./wire/state";
 
-/** All but the size of the image. A file may say how to relight as well. */
+/** All but the image's size and camera. A file may say how to relight as well. */
 const kSections = (Object.keys(kStages) as (keyof RoomState)[]).filter(
-    (key) => key !== "image",
+    (key) => key !== "image" && key !== "camera",
 );
 
 /** What is artistic: all but how images are worked out. */
@@ -49,7 +49,7 @@ export function textFromLighting(lighting: Lighting): string {
     return `${JSON.stringify(lighting, null, 2)}\n`;
 }
 
-/** A file may leave sections out; the server checks what is in them. A size is passed over. */
+/** A file may leave sections out; the server checks what is in them. Size and camera are passed over. */
 export function lightingFromText(text: string): Lighting {
     let json: Json;
     try {

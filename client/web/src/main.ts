@@ -19,6 +19,12 @@ const kGestures: Gesture[] = [
     { hand: "Shift + drag", words: "turn and tip the light" },
     { hand: "Alt + wheel", words: "roll the light" },
     { hand: "Wheel", words: "exposure" },
+    {
+        hand: "Drag, where the camera moves",
+        words: "orbit; with Shift or the right button pan (Alt + drag turns the light)",
+    },
+    { hand: "Wheel, where the camera moves", words: "nearer or farther" },
+    { hand: "Two fingers, where the camera moves", words: "pan; pinch: nearer or farther" },
     { hand: "Ctrl + wheel, or pinch", words: "zoom" },
     { hand: "Space + drag", words: "pan (or middle button, two fingers)" },
     { hand: "Double-click the map", words: "add a round light" },
@@ -32,7 +38,7 @@ const kGestures: Gesture[] = [
 ];
 
 function shortcutsOf(studio: Studio): Shortcut[] {
-    const { connection, exposure, lights, environments, downloads, zoom } = studio;
+    const { connection, exposure, lights, environments, downloads, zoom, camera } = studio;
     const step = (event: KeyboardEvent): number =>
         event.shiftKey ? kBigTurnDegrees : kTurnDegrees;
     const modes = ["environment", "colour", "transparent"] as const;
@@ -107,6 +113,12 @@ function shortcutsOf(studio: Studio): Shortcut[] {
                 if (lights.selected !== null) lights.remove(lights.selected);
             },
         },
+        {
+            keys: ["a", "A"],
+            words: "frame all, where the camera moves",
+            run: () => camera.frameAll(),
+        },
+        { keys: ["c", "C"], words: "the camera of the file", run: () => camera.reset() },
         { keys: ["f"], words: "fit the image, or one to one", run: () => zoom.toggleActual() },
         { keys: ["F"], words: "full screen", run: toggleFullScreen },
         { keys: ["+", "="], words: "zoom in", run: () => zoom.step(1) },

@@ -1,6 +1,8 @@
 /** The page put together: one connection, what it shows, and what acts on it. */
 import type { Api } from "./api";
 import { AreaLights } from "./area_lights";
+import { CameraHand, movingBounds } from "./camera_hand";
+import { CameraPanel } from "./camera_panel";
 import { DisplayPanel } from "./display_panel";
 import { byId, setText } from "./dom";
 import { Downloads } from "./downloads";
@@ -45,6 +47,7 @@ export class Studio {
     readonly environments: EnvironmentList;
     readonly downloads: Downloads;
     readonly zoom: ImageZoom;
+    readonly camera: CameraPanel;
     private readonly decoder: ImageDecoder;
     private readonly readouts: Readouts;
     private readonly timer = new EditTimer();
@@ -95,6 +98,19 @@ export class Studio {
             byId("image-frame"),
             () => this.view.header?.width ?? 0,
             (words) => this.readouts.setZoom(words),
+            () => movingBounds(connection) === null,
+        );
+        this.camera = new CameraPanel(
+            byId("camera-card"),
+            byId("camera-controls"),
+            byId("camera-views"),
+            connection,
+        );
+        // With Alt the light is turned as elsewhere; with Ctrl the page zooms.
+        new CameraHand(
+            byId("image-frame"),
+            connection,
+            (event) => event.altKey || event.ctrlKey,
         );
         const uploads = new UploadStore(place.server);
         this.lightReturn = new LightReturn(connection, api, uploads, notices, () =>
@@ -169,6 +185,7 @@ export class Studio {
     private listenToConnection(): void {
         const { connection } = this;
         connection.opened.listen(({ snapshot: { scene, room }, forgotten }) => {
+            byId("stage").dataset["camera"] = String(movingBounds(connection) !== null);
             this.decoder.clear();
             this.timer.clear();
             this.readouts.clear();

@@ -1,7 +1,13 @@
 /** Text frames of the connection, server to client [protocol/README.md §3.1]. */
 import { errorWords } from "./error_code";
 import { isObject } from "./merge_patch";
-import type { Json, JsonObject, RoomState } from "./state";
+import type { CameraState, Json, JsonObject, RoomState, Triple } from "./state";
+
+/** A sphere around all that a scene shows, in the world. */
+export interface SceneBounds {
+    centre: Triple;
+    radius: number;
+}
 
 export interface SceneSummary {
     name: string;
@@ -10,6 +16,12 @@ export interface SceneSummary {
     face_resolution: number;
     /** Relative L2 error that the bake's sampling leaves in an image, where the bake states it. */
     bake_error?: number;
+    /** Where its rooms begin. */
+    camera?: CameraState;
+    /** Where the camera can move. */
+    bounds?: SceneBounds;
+    /** The sections of the state that take edits. */
+    edits?: string[];
 }
 
 export interface Snapshot {

@@ -75,6 +75,18 @@ export interface BackgroundState {
     colour: Triple;
 }
 
+/** Where the image is looked at from. */
+export interface CameraState {
+    /** Where it stands, in the world. */
+    eye: Triple;
+    /** What lies in the middle of the image, in the world. */
+    look_at: Triple;
+    /** What points upwards in the image, as near as may be. */
+    up: Triple;
+    /** The angle between the image's lower and upper edge. */
+    fov_degrees: number;
+}
+
 /** How large the image is. */
 export interface ImageState {
     /** Pixels in a row. */
@@ -115,6 +127,7 @@ export interface RoomState {
     rotation: RotationState;
     lights: { [id: string]: AreaLight };
     background: BackgroundState;
+    camera: CameraState;
     image: ImageState;
     strategy: StrategyState;
     budget: BudgetState;
@@ -130,6 +143,7 @@ export const kStages: { readonly [section in keyof RoomState]: Stage } = {
     rotation: "signal",
     lights: "signal",
     background: "view",
+    camera: "view",
     image: "view",
     strategy: "policy",
     budget: "policy",
@@ -161,6 +175,11 @@ export const kRanges = {
     },
     background: {
         colour: { lowest: 0, highest: 1e4 },
+    },
+    camera: {
+        eye: { lowest: -1e12, highest: 1e12 },
+        look_at: { lowest: -1e12, highest: 1e12 },
+        fov_degrees: { lowest: 0.01, highest: 179 },
     },
     image: {
         width: { lowest: 1, highest: 16384 },
