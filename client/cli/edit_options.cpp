@@ -68,6 +68,47 @@ void put_light(json& patch, std::string_view text) {
         {"radiance", numbers_from_text(parts[3], 3, "--light", kForm)}};
 }
 
+void put_triple(json& section,
+                const char* key,
+                std::string_view text,
+                std::string_view option) {
+    if (!text.empty()) {
+        section[key] = numbers_from_text(text, 3, option, "X,Y,Z");
+    }
+}
+
+void put_camera(json& patch, const EditOptions& options) {
+    json camera = json::object();
+    put_triple(camera, "eye", options.eye, "--eye");
+    put_triple(camera, "look_at", options.look_at, "--look-at");
+    put_triple(camera, "up", options.up, "--up");
+    if (options.fov_degrees) {
+        camera["fov_degrees"] = *options.fov_degrees;
+    }
+    if (!camera.empty()) {
+        patch["camera"] = std::move(camera);
+    }
+}
+
+void put_size(json& patch, std::string_view text) {
+    constexpr std::string_view kForm = "WIDTHxHEIGHT";
+    const std::vector<std::string_view> sides = split(text, 'x');
+    std::vector<std::uint32_t> pixels;
+    for (const std::string_view side : sides) {
+        std::uint32_t number = 0;
+        const auto [end, error] =
+            std::from_chars(side.data(), side.data() + side.size(), number);
+        if (error == std::errc{} && end == side.data() + side.size()) {
+            pixels.push_back(number);
+        }
+    }
+    if (sides.size() != 2 || pixels.size() != 2) {
+        throw program::UsageError(
+            fmt::format("--size: found \"{}\", expected {}", text, kForm));
+    }
+    patch["image"] = {{"width", pixels[0]}, {"height", pixels[1]}};
+}
+
 }  // namespace
 
 json patch_from_text(const std::string& text_or_file) {
@@ -111,6 +152,10 @@ json patch_from_options(const EditOptions& options, const std::string& environme
     }
     for (const std::string& light : options.lights) {
         put_light(patch, light);
+    }
+    put_camera(patch, options);
+    if (!options.size.empty()) {
+        put_size(patch, options.size);
     }
     if (!options.method.empty()) {
         patch["strategy"]["method"] = options.method;

@@ -13,7 +13,12 @@ namespace relume::cli {
 struct EditOptions {
     std::string rotate;               // "YAW,PITCH,ROLL" in degrees
     std::vector<std::string> lights;  // "ID:X,Y,Z:RADIUS_DEGREES:R,G,B"
-    std::string patch;                // JSON, or @FILE; applied first
+    std::string eye;                  // "X,Y,Z" in the world
+    std::string look_at;              // the same
+    std::string up;                   // the same, a direction
+    std::optional<double> fov_degrees;
+    std::string size;   // "WIDTHxHEIGHT" in pixels
+    std::string patch;  // JSON, or @FILE; applied first
     std::string method;
     std::string priority;
     std::optional<double> budget_ms;

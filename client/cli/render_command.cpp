@@ -102,6 +102,17 @@ void render(const RenderOptions& options) {
     }
 }
 
+void add_camera_options(CLI::App& command, EditOptions& edits) {
+    command.add_option("--eye", edits.eye,
+                       "X,Y,Z where the camera stands, in the world, where the scene lets it "
+                       "move");
+    command.add_option("--look-at", edits.look_at, "X,Y,Z in the middle of the image");
+    command.add_option("--up", edits.up, "X,Y,Z that points upwards in the image");
+    command.add_option("--fov", edits.fov_degrees,
+                       "degrees between the image's lower and upper edge");
+    command.add_option("--size", edits.size, "WIDTHxHEIGHT of the image, in pixels");
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app) {
@@ -120,6 +131,7 @@ void add_render_command(CLI::App& app) {
         ->add_option("--light", options->edits.lights,
                      "round light ID:X,Y,Z:RADIUS_DEGREES:R,G,B; may be given several times")
         ->take_all();
+    add_camera_options(*command, options->edits);
     command->add_option(
         "--patch", options->edits.patch,
         "lighting as a JSON merge patch, or @FILE with one, as the page exports "

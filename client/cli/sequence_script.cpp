@@ -94,6 +94,15 @@ Step blend_from(ObjectReader reader) {
     return blend;
 }
 
+Step camera_from(ObjectReader reader) {
+    MoveCamera move{
+        .path = camera_path_from_json(reader.require("keys"), reader.path_to("keys")),
+        .images = images_from(reader),
+        .ease = ease_from(reader)};
+    reader.refuse_other_keys();
+    return move;
+}
+
 Step rest_from(ObjectReader reader) {
     Rest rest;
     const json& until = reader.require("until");
@@ -132,6 +141,7 @@ Step step_from(const json& value, const std::string& path) {
     take("rotate", rotate_from);
     take("move_light", move_light_from);
     take("blend", blend_from);
+    take("camera", camera_from);
     take("rest", rest_from);
     if (reader.find("patch") != nullptr) {
         found.emplace_back(ApplyPatch{.patch = patch_from(reader, "patch")});
@@ -140,7 +150,7 @@ Step step_from(const json& value, const std::string& path) {
     if (found.size() != 1) {
         throw wire::WireError(wire::ErrorCode::missing_field, path,
                               std::to_string(found.size()) + " kinds of step",
-                              "exactly one of rotate, move_light, blend, rest, patch");
+                              "exactly one of rotate, move_light, blend, camera, rest, patch");
     }
     return std::move(found.front());
 }
@@ -214,6 +224,7 @@ std::uint32_t edit_count(const Step& step) {
         std::uint32_t operator()(const Rotate& rotate) const { return rotate.images; }
         std::uint32_t operator()(const MoveLight& move) const { return move.images; }
         std::uint32_t operator()(const BlendOver& blend) const { return blend.images; }
+        std::uint32_t operator()(const MoveCamera& move) const { return move.images; }
         std::uint32_t operator()(const ApplyPatch&) const { return 1; }
         std::uint32_t operator()(const Rest&) const { return 0; }
     };
@@ -236,6 +247,9 @@ json patch_of(const Step& step, std::uint32_t index) {
     if (const auto* blend = std::get_if<BlendOver>(&step)) {
         const double way = way_at(index, blend->images, blend->ease);
         return {{"blend", {{"name", blend->name}, {"amount", blend->amount.at(way)}}}};
+    }
+    if (const auto* camera = std::get_if<MoveCamera>(&step)) {
+        return camera->path.patch_at(way_at(index, camera->images, camera->ease));
     }
     if (const auto* apply = std::get_if<ApplyPatch>(&step)) {
         return apply->patch;

@@ -1,6 +1,8 @@
 // A sequence of edits: what is edited when. README.md of this folder has the schema.
 #pragma once
 
+#include "client/cli/camera_path.h"
+
 #include <Imath/ImathVec.h>
 #include <nlohmann/json.hpp>
 
@@ -46,6 +48,11 @@ struct BlendOver {
     std::uint32_t images = 1;
     Ease ease = Ease::linear;
 };
+struct MoveCamera {
+    CameraPath path;
+    std::uint32_t images = 2;
+    Ease ease = Ease::linear;
+};
 // One edit.
 struct ApplyPatch {
     nlohmann::json patch;
@@ -55,7 +62,7 @@ struct Rest {
     std::optional<double> seconds;  // none: until exact
     double timeout_seconds = 300;   // how long to wait for exact
 };
-using Step = std::variant<Rotate, MoveLight, BlendOver, ApplyPatch, Rest>;
+using Step = std::variant<Rotate, MoveLight, BlendOver, MoveCamera, ApplyPatch, Rest>;
 
 struct SequenceScript {
     std::string scene;                                // may be empty

@@ -19,13 +19,13 @@ TEST(EditOptions, NothingAskedIsAnEmptyPatch) {
 }
 
 TEST(EditOptions, AllTogether) {
-    const EditOptions options{.rotate = "90,-5.5,1e1",
-                              .lights = {"key:0,1,0:5:10,9,8", "rim:-1,0,0:0.5:1,1,1"},
-                              .patch = R"({"display":{"exposure_stops":1}})",
-                              .method = "bi",
-                              .priority = "area",
-                              .budget_ms = 4,
-                              .coefficients = {}};
+    EditOptions options;
+    options.rotate = "90,-5.5,1e1";
+    options.lights = {"key:0,1,0:5:10,9,8", "rim:-1,0,0:0.5:1,1,1"};
+    options.patch = R"({"display":{"exposure_stops":1}})";
+    options.method = "bi";
+    options.priority = "area";
+    options.budget_ms = 4;
     EXPECT_EQ(patch_from_options(options, "city"), json::parse(R"({
         "environment": {"name": "city"},
         "rotation": {"yaw_degrees": 90, "pitch_degrees": -5.5, "roll_degrees": 10},
@@ -37,15 +37,26 @@ TEST(EditOptions, AllTogether) {
         "display": {"exposure_stops": 1}})"));
 }
 
+TEST(EditOptions, CameraAndSize) {
+    EditOptions options;
+    options.eye = "-1,2.5,1e3";
+    options.fov_degrees = 0.01;
+    EXPECT_EQ(patch_from_options(options, ""),
+              json::parse(R"({"camera": {"eye": [-1, 2.5, 1000], "fov_degrees": 0.01}})"));
+    options.look_at = "0,0,0";
+    options.up = "0,0,1";
+    options.size = "1920x1080";
+    EXPECT_EQ(patch_from_options(options, ""), json::parse(R"({
+        "camera": {"eye": [-1, 2.5, 1000], "look_at": [0, 0, 0], "up": [0, 0, 1],
+                   "fov_degrees": 0.01},
+        "image": {"width": 1920, "height": 1080}})"));
+}
+
 TEST(EditOptions, TheOthersAreAppliedOverThePatch) {
-    const EditOptions options{
-        .rotate = "",
-        .lights = {"key:0,1,0:5:10,9,8"},
-        .patch = R"({"lights":{"key":{"gain":2,"angular_radius_degrees":6}}})",
-        .method = "",
-        .priority = "",
-        .budget_ms = {},
-        .coefficients = 30};
+    EditOptions options;
+    options.lights = {"key:0,1,0:5:10,9,8"};
+    options.patch = R"({"lights":{"key":{"gain":2,"angular_radius_degrees":6}}})";
+    options.coefficients = 30;
     const json patch = patch_from_options(options, "");
     EXPECT_EQ(patch.at("lights").at("key").at("angular_radius_degrees"), 5);
     EXPECT_EQ(patch.at("lights").at("key").at("gain"), 2);
@@ -117,6 +128,20 @@ TEST(EditOptions, WrongFormsAreNamed) {
                              "key:0,1,0:5:1,1,1:2", "key:0,1,0:5,6:1,1,1"}) {
         EditOptions options;
         options.lights = {text};
+        EXPECT_TRUE(refused(options)) << text;
+    }
+    for (const char* text : {"1,2", "1,2,3,4", "up"}) {
+        EditOptions eye;
+        eye.eye = text;
+        EXPECT_TRUE(refused(eye)) << text;
+        EditOptions up;
+        up.up = text;
+        EXPECT_TRUE(refused(up)) << text;
+    }
+    for (const char* text :
+         {"1920", "1920,1080", "x", "1x2x3", "-1x5", "1.5x2", "99999999999x1"}) {
+        EditOptions options;
+        options.size = text;
         EXPECT_TRUE(refused(options)) << text;
     }
     for (const char* text : {"{", "[]", "1", "{\"a\":1,\"a\":2}", "@/no/such/file"}) {

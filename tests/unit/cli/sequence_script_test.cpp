@@ -41,7 +41,7 @@ std::string documented_script() {
 TEST(SequenceScripts, TheDocumentedOneIsTakenAndAServerWouldTakeItsEdits) {
     const SequenceScript script = sequence_script_from_text(documented_script());
     EXPECT_EQ(script.scene, "table");
-    ASSERT_EQ(script.steps.size(), 6U);
+    ASSERT_EQ(script.steps.size(), 7U);
     wire::RoomState state;
     wire::apply_patch(state, script.start, wire::Limits{});
     for (const Step& step : script.steps) {
@@ -50,6 +50,9 @@ TEST(SequenceScripts, TheDocumentedOneIsTakenAndAServerWouldTakeItsEdits) {
         }
     }
     EXPECT_EQ(state.blend.amount, 1);
+    EXPECT_EQ(state.camera.eye, Imath::V3d(4, 3, -3));
+    EXPECT_EQ(state.camera.look_at, Imath::V3d(0, 1, 0));
+    EXPECT_EQ(state.camera.fov_degrees, 20);
     EXPECT_EQ(state.budget.coefficients, 30U);
     const Imath::V3d end = Imath::V3d(1, 0.3, 0).normalized();
     EXPECT_TRUE(state.lights.at("key").direction.equalWithAbsError(end, 1e-12));
@@ -94,6 +97,18 @@ TEST(SequenceScripts, FaultsAreNamedByPlace) {
                   "at /steps/0/blend/amount"},
              Case{with_step(R"({"blend":{"name":"n","amount":[0,2],"images":2}})"),
                   "at /steps/0/blend/amount/1"},
+             Case{with_step(R"({"camera":{"images":2}})"), "at /steps/0/camera/keys"},
+             Case{with_step(
+                      R"({"camera":{"images":2,"keys":[{"eye":[0,0,0],"look_at":[1,0,0]}]}})"),
+                  "at /steps/0/camera/keys"},
+             Case{with_step(R"({"camera":{"images":2,"keys":[{"eye":[0,0,0]},{}]}})"),
+                  "at /steps/0/camera/keys/0/look_at"},
+             Case{with_step(R"({"camera":{"images":2,"keys":[{"eye":[0,0,0],"look_at":[1,0,0]},
+                                {"fov_degrees":40}]}})"),
+                  "missing_field at /steps/0/camera/keys/1/fov_degrees"},
+             Case{with_step(R"({"camera":{"images":2,"keys":[{"eye":[0,0,0],"look_at":[1,0,0],
+                                "fov_degrees":180},{}]}})"),
+                  "out_of_range at /steps/0/camera/keys/0/fov_degrees"},
              Case{with_step(R"({"rest":{}})"), "at /steps/0/rest/until"},
              Case{with_step(R"({"rest":{"until":"done"}})"), "at /steps/0/rest/until"},
              Case{with_step(R"({"rest":{"until":-1}})"), "at /steps/0/rest/until"},
@@ -159,6 +174,34 @@ TEST(SequenceScripts, ALightMovesOnAGreatCircle) {
     const Step still = MoveLight{
         .id = "k", .from = {0, 0, 1}, .to = {0, 0, 1}, .images = 2, .ease = Ease::linear};
     EXPECT_TRUE(direction(still, 0).equalWithAbsError({0, 0, 1}, 1e-12));
+}
+
+Imath::V3d triple(const json& numbers) {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+TEST(SequenceScripts, ACameraPassesThroughItsKeysAndRunsStraightWhereTheyDo) {
+    const CameraPath path = camera_path_from_json(json::parse(R"([
+        {"eye": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 2, 0], "fov_degrees": 10},
+        {"eye": [1, 0, 0]},
+        {"eye": [2, 0, 0], "up": [1, 0, 0]},
+        {"eye": [3, 0, 0], "fov_degrees": 40}])"),
+                                                  "");
+    for (int i = 0; i <= 3; ++i) {
+        const json camera = path.patch_at(i / 3.0).at("camera");
+        EXPECT_LT((triple(camera.at("eye")) - Imath::V3d(i, 0, 0)).length(), 1e-12);
+    }
+    const json middle = path.patch_at(0.5).at("camera");
+    EXPECT_LT((triple(middle.at("eye")) - Imath::V3d(1.5, 0, 0)).length(), 1e-12);
+    EXPECT_LT((triple(middle.at("look_at")) - Imath::V3d(0, 0, -1)).length(), 1e-12);
+    EXPECT_LT((triple(middle.at("up")) - Imath::V3d(0.5, 0.5, 0)).length(), 1e-12);
+    EXPECT_NEAR(path.patch_at(5.0 / 6).at("camera").at("fov_degrees").get<double>(), 20, 1e-9);
+    EXPECT_EQ(path.patch_at(1).at("camera").at("fov_degrees"), 40);
+    // What no key states stays as it is in the room.
+    const CameraPath bare = camera_path_from_json(
+        json::parse(R"([{"eye": [0, 0, 0], "look_at": [0, 0, -1]}, {"eye": [1, 0, 0]}])"), "");
+    EXPECT_FALSE(bare.patch_at(0.5).at("camera").contains("up"));
+    EXPECT_FALSE(bare.patch_at(0.5).at("camera").contains("fov_degrees"));
 }
 
 }  // namespace
