@@ -13,7 +13,7 @@ namespace {
 
 using Field = std::pair<std::string_view, std::uint64_t Limits::*>;
 
-constexpr std::array<Field, 10> kFields{{
+constexpr std::array<Field, 11> kFields{{
     {"message_bytes", &Limits::message_bytes},
     {"messages_per_second", &Limits::messages_per_second},
     {"message_burst", &Limits::message_burst},
@@ -24,6 +24,7 @@ constexpr std::array<Field, 10> kFields{{
     {"upload_bytes", &Limits::upload_bytes},
     {"uploads", &Limits::uploads},
     {"errors_per_connection", &Limits::errors_per_connection},
+    {"image_pixels", &Limits::image_pixels},
 }};
 
 }  // namespace

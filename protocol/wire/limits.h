@@ -19,6 +19,7 @@ struct Limits {
     std::uint64_t upload_bytes = std::uint64_t{64} * 1024 * 1024;
     std::uint64_t uploads = 32;
     std::uint64_t errors_per_connection = 100;
+    std::uint64_t image_pixels = std::uint64_t{4096} * 2160;  // where people choose its size
 
     friend bool operator==(const Limits&, const Limits&) = default;
 };
@@ -31,6 +32,8 @@ inline constexpr std::size_t kMaxServerMessageBytes = std::size_t{1} << 20;
 // Largest image side, as in the transport directory, and largest image.
 inline constexpr std::uint32_t kMaxImageSide = 16384;
 inline constexpr std::uint64_t kMaxImagePixels = std::uint64_t{1} << 26;
+// Largest image side that an edit may ask for.
+inline constexpr std::uint32_t kMaxChosenSide = 4096;
 
 // An object with one key per member, each named like the member.
 [[nodiscard]] nlohmann::json to_json(const Limits& limits);

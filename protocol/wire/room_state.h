@@ -9,6 +9,7 @@
 #include "protocol/wire/sections/area_lights.h"
 #include "protocol/wire/sections/background.h"
 #include "protocol/wire/sections/blend.h"
+#include "protocol/wire/sections/camera.h"
 #include "protocol/wire/sections/display.h"
 #include "protocol/wire/sections/environment.h"
 #include "protocol/wire/sections/image_size.h"
@@ -25,6 +26,7 @@ struct RoomState {
     Rotation rotation;
     AreaLights lights;
     Background background;
+    Camera camera;
     ImageSize image;
     relighting::Strategy strategy;
     relighting::Budget budget;

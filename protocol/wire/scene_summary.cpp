@@ -4,6 +4,7 @@
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/limits.h"
 #include "protocol/wire/object_reader.h"
+#include "protocol/wire/sections/section_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,30 @@ void read_text(ObjectReader& reader, const char* key, std::string& value) {
     }
 }
 
+Camera camera_from_json(const json& object, const std::string& path) {
+    Camera camera;
+    ObjectReader reader(object, path);
+    for (const Field<Camera>& field : kCameraFields) {
+        const json& value = reader.require(field.rule.key);
+        field.set(camera, value_from_json(field.rule, value, reader.path_to(field.rule.key)));
+    }
+    return camera;
+}
+
+json to_json(const SceneBounds& bounds) {
+    return {{"centre", {bounds.centre.x, bounds.centre.y, bounds.centre.z}},
+            {"radius", bounds.radius}};
+}
+
+SceneBounds bounds_from_json(const json& object, const std::string& path) {
+    ObjectReader reader(object, path);
+    const json& centre = reader.require("centre");
+    const json& radius = reader.require("radius");
+    return {
+        .centre = vector_from_json(centre, reader.path_to("centre"), kPosition),
+        .radius = number_from_json(radius, reader.path_to("radius"), {0, kPosition.highest})};
+}
+
 }  // namespace
 
 json to_json(const SceneSummary& scene) {
@@ -53,6 +78,12 @@ json to_json(const SceneSummary& scene) {
     if (scene.bake_error) {
         object["bake_error"] = *scene.bake_error;
     }
+    if (scene.camera) {
+        object["camera"] = to_json(kCamera, *scene.camera);
+    }
+    if (scene.bounds) {
+        object["bounds"] = to_json(*scene.bounds);
+    }
     return object;
 }
 
@@ -64,6 +95,8 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
                        .order = {},
                        .face_resolution = count_from(reader, "face_resolution"),
                        .bake_error = {},
+                       .camera = {},
+                       .bounds = {},
                        .edits = {}};
     read_text(reader, "kind", scene.kind);
     read_text(reader, "basis", scene.basis);
@@ -76,6 +109,12 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
     }
     if (const json* error = reader.find("bake_error")) {
         scene.bake_error = number_from_json(*error, reader.path_to("bake_error"), {0, 1e6});
+    }
+    if (const json* camera = reader.find("camera")) {
+        scene.camera = camera_from_json(*camera, reader.path_to("camera"));
+    }
+    if (const json* bounds = reader.find("bounds")) {
+        scene.bounds = bounds_from_json(*bounds, reader.path_to("bounds"));
     }
     if (const json* edits = reader.find("edits")) {
         if (!edits->is_array()) {

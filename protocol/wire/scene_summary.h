@@ -1,6 +1,9 @@
 // What a scene is and what may be edited in its rooms: `/api/scenes` and the snapshot say it.
 #pragma once
 
+#include "protocol/wire/sections/camera.h"
+
+#include <Imath/ImathVec.h>
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -9,6 +12,14 @@
 #include <vector>
 
 namespace relume::wire {
+
+// A sphere around all that a scene shows, in the world.
+struct SceneBounds {
+    Imath::V3d centre{0, 0, 0};
+    double radius = 0;
+
+    friend bool operator==(const SceneBounds&, const SceneBounds&) = default;
+};
 
 struct SceneSummary {
     std::string name;
@@ -23,8 +34,10 @@ struct SceneSummary {
     std::uint64_t bytes = 0;         // of the transport directory's checked files
     std::uint64_t memory_bytes = 0;  // that the server holds for it
     std::optional<double> bake_error =
-        std::nullopt;                     // relative L2 that the bake's sampling leaves
-    std::vector<std::string> edits = {};  // the sections of state that take edits
+        std::nullopt;                             // relative L2 that the bake's sampling leaves
+    std::optional<Camera> camera = std::nullopt;  // where its rooms begin
+    std::optional<SceneBounds> bounds = std::nullopt;  // where the camera can move
+    std::vector<std::string> edits = {};               // the sections of state that take edits
 
     friend bool operator==(const SceneSummary&, const SceneSummary&) = default;
 };

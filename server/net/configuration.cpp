@@ -176,6 +176,8 @@ void add_limits(OptionSet& options, Configuration& c) {
     options.add_count("max-uploads", limits.uploads, "Uploaded environments kept", 1, kMany);
     options.add_count("max-errors", limits.errors_per_connection,
                       "Refused messages before a client is sent away", 1, kMany);
+    options.add_count("max-image-pixels", limits.image_pixels,
+                      "Pixels of an image whose size people choose", 1, wire::kMaxImagePixels);
     options.add_count("max-upload-texels", c.connection.upload_texels,
                       "Texels of one uploaded environment", 64, std::uint64_t{1} << 27);
     options.add_count("upload-memory-bytes", c.environment_bounds.upload_memory_bytes,

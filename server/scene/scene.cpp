@@ -1,6 +1,8 @@
 #include "server/scene/scene.h"
 
+#include "server/scene/beginning.h"
 #include "server/view/image_view.h"
+#include "server/view/mesh/mesh_view.h"
 
 #include <utility>
 
@@ -10,14 +12,38 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)),
       projection_(basis::CubemapProjection::onto(transport_->manifest().signal_basis)),
       operator_(std::make_shared<const engine::StoredOperator>(transport_)),
-      workspace_(std::make_shared<const engine::Workspace>(operator_)) {}
+      workspace_(std::make_shared<const engine::Workspace>(operator_)) {
+    const transport::Manifest& manifest = transport_->manifest();
+    if (!transport_->surface()) {
+        beginning_ = beginning_of_image(manifest);
+        return;
+    }
+    const transport::Surface& surface = *transport_->surface();
+    surface_ = std::make_shared<const view::DrawnSurface>(
+        std::shared_ptr<const transport::Surface>(transport_, &surface),
+        manifest.mesh->materials, manifest.layout.clusters());
+    bounds_ = bounds_of(surface.mesh, manifest.mesh->frame);
+    beginning_ = beginning_of_mesh(manifest, surface.mesh, *bounds_);
+}
 
 std::unique_ptr<view::View> Scene::make_view() const {
-    return std::make_unique<view::ImageView>(transport_);
+    if (!surface_) {
+        return std::make_unique<view::ImageView>(transport_);
+    }
+    const transport::Manifest& manifest = transport_->manifest();
+    return std::make_unique<view::MeshView>(
+        surface_,
+        view::VertexRadiance(manifest.layout.clusters(), manifest.block_basis,
+                             transport_->tint()),
+        manifest.mesh->frame, beginning_);
 }
 
 void Scene::write_image(std::span<const float> sums, std::span<float> rgb) const {
     view::write_image(*make_view(), sums, rgb);
+}
+
+std::uint64_t Scene::bytes() const {
+    return operator_->bytes() + (surface_ ? surface_->bytes() : 0);
 }
 
 }  // namespace relume::served

@@ -5,11 +5,17 @@
 #include "protocol/transport/transport.h"
 #include "server/engine/operators/stored_operator.h"
 #include "server/engine/workspace.h"
+#include "server/scene/scene_bounds.h"
 #include "server/view/view.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+
+namespace relume::view {
+class DrawnSurface;
+}
 
 namespace relume::served {
 
@@ -35,22 +41,31 @@ class Scene {
     [[nodiscard]] const std::shared_ptr<const engine::Workspace>& workspace() const {
         return workspace_;
     }
+    // Where a view looks from as it begins.
+    [[nodiscard]] const view::Look& beginning() const { return beginning_; }
+    // Whether it can look from elsewhere, and at images of other sizes.
+    [[nodiscard]] bool view_can_move() const { return surface_ != nullptr; }
+    // Where the view can move: all that there is to see.
+    [[nodiscard]] const std::optional<SceneBounds>& bounds() const { return bounds_; }
     // A view of one's own, as it begins.
     [[nodiscard]] std::unique_ptr<view::View> make_view() const;
     // The size of the images that a view begins with.
-    [[nodiscard]] const transport::TileGrid& image() const {
-        return transport().manifest().image();
+    [[nodiscard]] transport::TileGrid image() const {
+        return {.width = beginning_.width, .height = beginning_.height};
     }
     // The image of a view as it begins (view/view.h).
     void write_image(std::span<const float> sums, std::span<float> rgb) const;
     // Bytes of memory.
-    [[nodiscard]] std::uint64_t bytes() const { return operator_->bytes(); }
+    [[nodiscard]] std::uint64_t bytes() const;
 
   private:
     std::shared_ptr<const transport::Transport> transport_;
     std::shared_ptr<const basis::CubemapProjection> projection_;
     std::shared_ptr<const engine::StoredOperator> operator_;
     std::shared_ptr<const engine::Workspace> workspace_;
+    std::shared_ptr<const view::DrawnSurface> surface_;  // of a mesh
+    std::optional<SceneBounds> bounds_;
+    view::Look beginning_;
 };
 
 }  // namespace relume::served

@@ -15,6 +15,9 @@ class ImageView final : public View {
   public:
     explicit ImageView(std::shared_ptr<const transport::Transport> transport);
 
+    bool look(const Look& /*look*/) override { return false; }
+    bool look_closer() override { return false; }
+
     [[nodiscard]] const transport::TileGrid& image() const override {
         return transport_->manifest().image();
     }

@@ -5,10 +5,24 @@
 #include "protocol/transport/receiver_layout.h"
 #include "server/view/tile_run.h"
 
+#include <Imath/ImathVec.h>
+
 #include <cstdint>
 #include <span>
 
 namespace relume::view {
+
+// Where an image is looked at from, in the world, and how large it is.
+struct Look {
+    Imath::V3d eye{0, 0, 0};
+    Imath::V3d look_at{0, 0, -1};  // along −Z where it is the eye
+    Imath::V3d up{0, 1, 0};        // the axis farthest from the view where it lies along that
+    double fov_degrees = 40;       // from the lower to the upper edge, 0.01 … 179
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+
+    friend bool operator==(const Look&, const Look&) = default;
+};
 
 // An image of what a scene's receivers have been given. Sums are [blocks][3][256], in the basis
 // of their block and before tint (protocol/transport/block_basis.h). Each room has its own.
@@ -22,6 +36,13 @@ class View {
     View& operator=(const View&) = delete;
     virtual ~View() = default;
 
+    // Looks from elsewhere, or at an image of another size; in each pixel at one place. Spread
+    // over the caller's arena. Returns whether camera, size or coverage may have changed: never
+    // where receivers are the pixels of one camera.
+    virtual bool look(const Look& look) = 0;
+    // Looks closer, until the next look, at pixels in which different things meet. The same.
+    virtual bool look_closer() = 0;
+
     // The image's size, in tiles.
     [[nodiscard]] virtual const transport::TileGrid& image() const = 0;
     // Where it is looked from, and along which directions.
@@ -30,6 +51,8 @@ class View {
     // width·height values.
     virtual void write_coverage(std::span<float> coverage) const = 0;
 
+    // The sums of the next image are not those of the image before.
+    virtual void sums_have_changed() {}
     // Prepares for the tiles of one image of these sums.
     virtual void begin_image(std::span<const float> sums) = 0;
     // Tiles of that image, tint applied: the pixels of `pixels_of(image(), tiles)` alone,

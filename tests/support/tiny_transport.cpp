@@ -58,18 +58,30 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
             tables.steps.push_back(std::ldexp(1e-4F, -static_cast<int>(band + k)));
         }
     }
-    const std::size_t receivers = std::size_t{manifest.block_count()} * kBlockSize;
+    const std::size_t slots = manifest.layout.slot_count();
     std::uniform_real_distribution<float> tint(0.2F, 1);
-    tables.coverage.assign(receivers, 0);
-    tables.tint.assign(receivers * kColours, 0);
+    tables.coverage.assign(slots, 0);
+    tables.tint.assign(slots * kColours, 0);
+    const auto add_receiver = [&](std::size_t block, std::size_t slot, float coverage) {
+        tables.coverage[block * kBlockSize + slot] = coverage;
+        for (std::size_t c = 0; c < kColours; ++c) {
+            tables.tint[(block * kColours + c) * kBlockSize + slot] = tint(random);
+        }
+    };
+    if (manifest.kind == transport::Kind::mesh) {
+        const transport::VertexClusters& clusters = manifest.layout.clusters();
+        for (std::uint32_t block = 0; block < clusters.block_count(); ++block) {
+            const auto& cluster = clusters.clusters()[clusters.cluster_of_block(block)];
+            for (std::uint32_t slot = 0; slot < cluster.vertices; ++slot) {
+                add_receiver(block, slot, 1);
+            }
+        }
+        return tables;
+    }
     for (std::uint32_t y = 0; y < manifest.image().height; ++y) {
         for (std::uint32_t x = 0; x < manifest.image().width; ++x) {
             const auto [block, slot] = manifest.image().place_from_pixel(x, y);
-            tables.coverage[block * kBlockSize + slot] =
-                y * 4 < manifest.image().height ? 0.5F : 1;
-            for (std::size_t c = 0; c < kColours; ++c) {
-                tables.tint[(block * kColours + c) * kBlockSize + slot] = tint(random);
-            }
+            add_receiver(block, slot, y * 4 < manifest.image().height ? 0.5F : 1);
         }
     }
     return tables;
@@ -77,13 +89,15 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
 
 }  // namespace
 
-void write_tiny_transport(const std::filesystem::path& directory,
-                          const TinyTransportOptions& options) {
-    const transport::Manifest manifest = tiny_manifest(options);
+void write_random_transport(const std::filesystem::path& directory,
+                            const transport::Manifest& manifest,
+                            const TinyTransportOptions& options,
+                            const transport::Surface* surface) {
     const transport::ShardPlan plan =
         transport::ShardPlan::equal(manifest.block_count(), options.blocks_per_shard);
     std::mt19937_64 random(options.seed);
-    const std::size_t segments = std::size_t{manifest.column_count()} * options.channels;
+    const std::size_t segments =
+        std::size_t{manifest.column_count()} * manifest.colour.channels;
     transport::TransportWriter writer(directory, manifest, plan);
     for (std::uint32_t shard = 0; shard < plan.shard_count(); ++shard) {
         std::vector<transport::EncodedBlock> blocks;
@@ -95,7 +109,15 @@ void write_tiny_transport(const std::filesystem::path& directory,
         }
         writer.write_shard(shard, blocks);
     }
+    if (surface != nullptr) {
+        writer.write_surface(*surface);
+    }
     writer.finish(tiny_tables(manifest, random), {{"note", "random"}});
+}
+
+void write_tiny_transport(const std::filesystem::path& directory,
+                          const TinyTransportOptions& options) {
+    write_random_transport(directory, tiny_manifest(options), options);
 }
 
 std::vector<double> dense_product(const transport::Transport& transport,

@@ -26,6 +26,13 @@ struct TinyTransportOptions {
 void write_tiny_transport(const std::filesystem::path& directory,
                           const TinyTransportOptions& options = {});
 
+// Of any manifest: random cells, and a random tint of every receiver. `options` says how many
+// blocks make a shard, the density and the seed. A mesh has a surface.
+void write_random_transport(const std::filesystem::path& directory,
+                            const transport::Manifest& manifest,
+                            const TinyTransportOptions& options,
+                            const transport::Surface* surface = nullptr);
+
 // Σ_j T_j L_j in double precision: [blocks][3][256], before tint. `lighting` is planar [3][N].
 [[nodiscard]] std::vector<double> dense_product(const transport::Transport& transport,
                                                 std::span<const float> lighting);

@@ -19,9 +19,9 @@ constexpr std::size_t kLooksPerTask = 64;
 constexpr std::uint32_t kTilesPerRun = 16;
 
 // What the environment shows in these pixels.
-void look(const light::Background& background,
-          const SkyLooks& pixels,
-          std::span<Imath::V3f> radiances) {
+void look_up(const light::Background& background,
+             const SkyLooks& pixels,
+             std::span<Imath::V3f> radiances) {
     background.radiances(pixels.directions, std::span(pixels.footprints_sr).first(pixels.count),
                          radiances);
     for (std::size_t i = 0; i < pixels.count; ++i) {
@@ -33,13 +33,30 @@ void look(const light::Background& background,
 
 FrameComposer::FrameComposer(std::unique_ptr<view::View> view,
                              std::shared_ptr<const SkyPixels> sky)
-    : view_(std::move(view)),
-      sky_(std::move(sky)),
-      image_(view_->image()),
-      background_(sky_->size(), Imath::V3f(0)) {}
+    : view_(std::move(view)), sky_(std::move(sky)), image_(view_->image()) {}
+
+bool FrameComposer::look(const view::Look& look) {
+    const bool changed = view_->look(look);
+    if (changed) {
+        sky_.reset();
+    }
+    return changed;
+}
+
+bool FrameComposer::look_closer() {
+    const bool changed = view_->look_closer();
+    if (changed) {
+        sky_.reset();
+    }
+    return changed;
+}
 
 void FrameComposer::set_background(const wire::Background& background,
                                    const light::LightRig& rig) {
+    if (!sky_) {
+        sky_ = std::make_shared<const SkyPixels>(*view_);
+    }
+    background_.resize(sky_->size());
     has_alpha_ = background.mode == wire::BackgroundMode::transparent;
     const bool sees_environment = background.mode == wire::BackgroundMode::environment;
     const Imath::V3f colour = has_alpha_ ? Imath::V3f(0) : Imath::V3f(background.colour);
@@ -52,7 +69,7 @@ void FrameComposer::set_background(const wire::Background& background,
                 const std::span<Imath::V3f> seen =
                     std::span(background_).subspan(k * light::kLooksPerRun, looks[k].count);
                 if (sees_environment) {
-                    look(lookup, looks[k], seen);
+                    look_up(lookup, looks[k], seen);
                     continue;
                 }
                 for (std::size_t i = 0; i < seen.size(); ++i) {

@@ -19,12 +19,18 @@ namespace relume::net {
 // between stay in the cache. Not thread-safe; spreads its work over oneTBB.
 class FrameComposer {
   public:
-    // `sky`: of the view as it is.
+    // `sky`: of the view as it is; null where it is still to be found.
     FrameComposer(std::unique_ptr<view::View> view, std::shared_ptr<const SkyPixels> sky);
 
     // Of the picture composed last.
     [[nodiscard]] std::uint32_t width() const { return image_.width; }
     [[nodiscard]] std::uint32_t height() const { return image_.height; }
+
+    // As the view does. Where it returns true, the background has to be set again.
+    bool look(const view::Look& look);
+    bool look_closer();
+    // The sums of the next picture are not those of the picture before.
+    void sums_have_changed() { view_->sums_have_changed(); }
 
     // Sets what shows behind the scene. In mode `environment` the rig is looked up at its full
     // resolution, once for each pixel that sees it; in other modes it is not used.

@@ -31,7 +31,7 @@ struct SkyRun {
 // Immutable; rooms of a scene whose view is fixed share one.
 class SkyPixels {
   public:
-    // Of the view as it is.
+    // Of the view as it is. Spread over the caller's arena.
     explicit SkyPixels(const view::View& view);
 
     // Row by row from the top.
@@ -45,11 +45,13 @@ class SkyPixels {
     [[nodiscard]] std::span<const float> coverage() const { return coverage_; }
 
   private:
-    void append(std::uint32_t x,
-                const Imath::V3f& direction,
-                float footprint_sr,
-                float visible);
+    [[nodiscard]] std::span<const float> coverage_of_row(std::uint32_t y) const {
+        return std::span(coverage_).subspan(std::size_t{y} * image_.width, image_.width);
+    }
+    // `place`: of the row's first sky pixel.
+    void fill_row(const transport::CameraRecord& camera, std::uint32_t y, std::size_t place);
 
+    transport::TileGrid image_;
     std::size_t size_ = 0;
     std::vector<SkyLooks> looks_;
     std::vector<SkyRun> runs_;

@@ -9,12 +9,42 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 
 namespace relume::net {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+wire::Camera camera_of(const view::Look& look) {
+    return {.eye = look.eye,
+            .look_at = look.look_at,
+            .up = look.up.normalized(),
+            .fov_degrees = std::clamp(look.fov_degrees, wire::kFieldOfViewDegrees.lowest,
+                                      wire::kFieldOfViewDegrees.highest)};
+}
+
+std::optional<wire::SceneBounds> bounds_of(const served::Scene& scene) {
+    if (!scene.bounds()) {
+        return std::nullopt;
+    }
+    return wire::SceneBounds{.centre = scene.bounds()->centre,
+                             .radius = scene.bounds()->radius};
+}
+
+std::vector<std::string> edits_of(const served::Scene& scene) {
+    std::vector<std::string> edits{"environment", "blend",    "rotation", "lights",
+                                   "background",  "strategy", "budget",   "display"};
+    if (scene.view_can_move()) {
+        edits.insert(edits.end(), {"camera", "image"});
+    }
+    return edits;
+}
+
+}  // namespace
 
 wire::SceneSummary ServedScene::summary() const {
     const basis::CubemapBasis& basis = loaded->projection().basis();
@@ -33,8 +63,9 @@ wire::SceneSummary ServedScene::summary() const {
         .bytes = loaded->transport().total_bytes(),
         .memory_bytes = loaded->bytes(),
         .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
-        .edits = {"environment", "blend", "rotation", "lights", "background", "strategy",
-                  "budget", "display"}};
+        .camera = camera_of(loaded->beginning()),
+        .bounds = bounds_of(*loaded),
+        .edits = edits_of(*loaded)};
 }
 
 namespace {
@@ -94,7 +125,9 @@ void SceneLibrary::open(const fs::path& directory) {
         transport::Transport::open(directory);
     const std::uint64_t bytes = transport->total_bytes();
     auto loaded = std::make_shared<const served::Scene>(std::move(transport));
-    auto sky = std::make_shared<const SkyPixels>(*loaded->make_view());
+    auto sky = loaded->view_can_move()
+                   ? nullptr
+                   : std::make_shared<const SkyPixels>(*loaded->make_view());
     std::shared_ptr<const ServedScene> scene =
         std::make_shared<const ServedScene>(ServedScene{.name = name,
                                                         .directory = directory,

@@ -25,7 +25,7 @@ struct ServedScene {
     std::string name;
     std::filesystem::path directory;
     std::shared_ptr<const served::Scene> loaded;
-    std::shared_ptr<const SkyPixels> sky;  // of the view that all rooms have
+    std::shared_ptr<const SkyPixels> sky;  // of the view that all rooms have; null if it moves
 
     // What clients are told of it.
     [[nodiscard]] wire::SceneSummary summary() const;

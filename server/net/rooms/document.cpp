@@ -2,16 +2,40 @@
 
 #include "protocol/wire/room_patch.h"
 
+#include <string>
 #include <utility>
 
 namespace relume::net {
 
 Document::Document(const wire::SceneSummary& scene, std::shared_ptr<Environment> environment)
     : edits_(scene.edits) {
+    state_.camera = scene.camera.value_or(wire::Camera{});
     state_.image = {.width = scene.width, .height = scene.height};
     state_.environment.name = environment->description().name;
     environments_.environment = std::move(environment);
 }
+
+namespace {
+
+// People choose sizes that a server can hold and draw.
+void require_drawable(const wire::ImageSize& image, const wire::Limits& limits) {
+    const auto require_side = [](const char* path, std::uint32_t side) {
+        if (side > wire::kMaxChosenSide) {
+            throw wire::WireError(wire::ErrorCode::out_of_range, path, std::to_string(side),
+                                  "1 to " + std::to_string(wire::kMaxChosenSide));
+        }
+    };
+    require_side("/image/width", image.width);
+    require_side("/image/height", image.height);
+    const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
+    if (pixels > limits.image_pixels) {
+        throw wire::WireError(wire::ErrorCode::too_large, "/image",
+                              std::to_string(pixels) + " pixels",
+                              "at most " + std::to_string(limits.image_pixels));
+    }
+}
+
+}  // namespace
 
 DocumentChange Document::edit(ViewerId author,
                               const wire::Edit& edit,
@@ -24,6 +48,9 @@ DocumentChange Document::edit(ViewerId author,
                           .edit_id = edit.id,
                           .stages = {}};
     wire::require_kept(state_, next, edits_);
+    if (next.image != state_.image) {
+        require_drawable(next.image, limits);
+    }
     change.stages = wire::stages_of(change.patch);
     environments_ = environments_after(environments_, next, change.patch, library);
     state_ = std::move(next);

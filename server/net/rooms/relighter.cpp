@@ -68,6 +68,15 @@ light::LightRig rig_from_state(const wire::RoomState& state,
     return rig;
 }
 
+view::Look look_of(const wire::RoomState& state) {
+    return {.eye = state.camera.eye,
+            .look_at = state.camera.look_at,
+            .up = state.camera.up,
+            .fov_degrees = state.camera.fov_degrees,
+            .width = state.image.width,
+            .height = state.image.height};
+}
+
 }  // namespace
 
 Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
@@ -90,6 +99,9 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
     const bool light_is_new =
         stages.has(wire::Stage::signal) && set_light(state, environments, problems);
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
+    if (stages.has(wire::Stage::view)) {
+        static_cast<void>(composer_->look(look_of(state)));
+    }
     if (stages.has(wire::Stage::view) || (light_is_new && sees_environment)) {
         composer_->set_background(state.background, rig_);
         pixels_changed();
@@ -155,6 +167,7 @@ void Relighter::relit(const engine::StepReport& report, Clock::duration spent) {
     applied_ += report.applied;
     remaining_ = report.remaining;
     if (report.image_changed) {
+        composer_->sums_have_changed();
         pixels_changed();
     }
 }
@@ -175,6 +188,9 @@ void Relighter::compose(const ImageForms& forms, bool settled) {
 }
 
 Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
+    if (stamp.settled && composer_->look_closer()) {
+        composer_->set_background(state_->background, rig_);
+    }
     compose(forms, stamp.settled);
     const bool exact = session_.exact();
     Picture picture{

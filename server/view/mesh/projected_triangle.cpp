@@ -55,17 +55,16 @@ std::optional<ProjectedTriangle> project(const Corners& corners, double width, d
     if (is_outside(corners, width, height)) {
         return std::nullopt;
     }
-    ProjectedTriangle projected;
     // Pixel coordinates turn round what the world's are: a front is clockwise in them.
-    projected.edges = {edge_function(corners[2], corners[1]),
-                       edge_function(corners[0], corners[2]),
-                       edge_function(corners[1], corners[0])};
-    const EdgeFunction& first = projected.edges[0];
+    const EdgeFunction first = edge_function(corners[2], corners[1]);
     const double volume =
         corners[0].x * first.x + corners[0].y * first.y + corners[0].z * first.constant;
     if (!(volume > std::numeric_limits<double>::min())) {
         return std::nullopt;  // its back, or its edge
     }
+    ProjectedTriangle projected;
+    projected.edges = {first, edge_function(corners[0], corners[2]),
+                       edge_function(corners[1], corners[0])};
     projected.nearness_of_weight = 1 / volume;
     bound(corners, width, height, projected);
     return projected;

@@ -53,21 +53,27 @@ std::vector<std::uint32_t> pixels_of_edges(const SurfaceMesh& mesh,
                                            std::uint32_t width,
                                            std::uint32_t height) {
     std::vector<std::uint8_t> is_edge(points.size(), 0);
+    // Also of those across a corner: an edge that cuts it off may pass no other's middle.
+    const auto differs_from_neighbour = [&](std::uint32_t x, std::uint32_t y) {
+        for (std::uint32_t v = y - (y > 0 ? 1 : 0); v <= std::min(y + 1, height - 1); ++v) {
+            for (std::uint32_t u = x - (x > 0 ? 1 : 0); u <= std::min(x + 1, width - 1); ++u) {
+                if (differ(mesh, points[std::size_t{y} * width + x],
+                           points[std::size_t{v} * width + u])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
     const auto mark_row = [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t pixel = std::size_t{y} * width + x;
-            const auto differs_from = [&](std::size_t other) {
-                return differ(mesh, points[pixel], points[other]);
-            };
             const auto steps_between = [&](std::size_t before, std::size_t after) {
                 return points[pixel].triangle != kNoTriangle &&
                        is_step(nearness[before], nearness[pixel], nearness[after]);
             };
             is_edge[pixel] =
-                (x > 0 && differs_from(pixel - 1)) ||
-                (x + 1 < width && differs_from(pixel + 1)) ||
-                (y > 0 && differs_from(pixel - width)) ||
-                (y + 1 < height && differs_from(pixel + width)) ||
+                differs_from_neighbour(x, y) ||
                 (x > 0 && x + 1 < width && steps_between(pixel - 1, pixel + 1)) ||
                 (y > 0 && y + 1 < height && steps_between(pixel - width, pixel + width));
         }

@@ -44,6 +44,10 @@ class VisibleSurface {
     [[nodiscard]] const SurfacePoint& point(std::uint32_t x, std::uint32_t y) const {
         return points_[std::size_t{y} * width_ + x];
     }
+    // One over its depth along forward; 0 where nothing is there.
+    [[nodiscard]] float nearness(std::uint32_t x, std::uint32_t y) const {
+        return nearness_[std::size_t{y} * width_ + x];
+    }
     // The points of a pixel: one, or those of its sixteen places.
     [[nodiscard]] std::span<const SurfacePoint> points(std::uint32_t x, std::uint32_t y) const {
         const std::size_t pixel = std::size_t{y} * width_ + x;

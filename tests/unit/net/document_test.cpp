@@ -71,6 +71,37 @@ TEST_F(DocumentTest, SectionsThatTheSceneDoesNotLetPeopleEditKeepTheirValues) {
     EXPECT_EQ(document_->revision(), 1U);
 }
 
+// Where people choose the size of the image, they choose one that can be drawn and held.
+TEST_F(DocumentTest, ChosenImagesAreBounded) {
+    wire::SceneSummary scene = kScene;
+    scene.camera = wire::Camera{.eye = {1, 2, 3}, .look_at = {0, 1, 0}, .fov_degrees = 20};
+    scene.edits = {"camera", "image"};
+    document_.emplace(scene, library_.find("map"));
+    EXPECT_EQ(document_->state().camera, *scene.camera);
+    const auto size = [](std::uint32_t width, std::uint32_t height) {
+        return json{{"image", {{"width", width}, {"height", height}}}};
+    };
+    EXPECT_EQ(edit(kAnna, size(4096, 2160)).stages, wire::Stages(wire::Stage::view));
+    EXPECT_EQ(edit(kAnna, {{"camera", {{"eye", {5, 6, 7}}}}}).stages,
+              wire::Stages(wire::Stage::view));
+    const wire::RoomState before = document_->state();
+    const auto refusal_of = [&](const json& patch) {
+        try {
+            edit(kAnna, patch);
+        } catch (const wire::WireError& refusal) {
+            return std::pair(refusal.code(), refusal.path());
+        }
+        return std::pair(wire::ErrorCode::internal, std::string("taken"));
+    };
+    EXPECT_EQ(refusal_of(size(4097, 1)),
+              std::pair(wire::ErrorCode::out_of_range, std::string("/image/width")));
+    EXPECT_EQ(refusal_of(size(1, 4097)),
+              std::pair(wire::ErrorCode::out_of_range, std::string("/image/height")));
+    EXPECT_EQ(refusal_of(size(4096, 2161)),
+              std::pair(wire::ErrorCode::too_large, std::string("/image")));
+    EXPECT_EQ(document_->state(), before);
+}
+
 TEST_F(DocumentTest, OnlySignalAndViewChangePixels) {
     edit(kAnna, {{"rotation", {{"yaw_degrees", 10}}}});
     EXPECT_EQ(document_->revision_of_pixels(), 1U);

@@ -111,6 +111,8 @@ Snapshot busy_snapshot() {
                                 .bytes = 1U << 20,
                                 .memory_bytes = 3U << 20,
                                 .bake_error = 0.008,
+                                .camera = Camera{.eye = {1e6, 0.1, -3}, .fov_degrees = 0.01},
+                                .bounds = SceneBounds{.centre = {1, 2, 3}, .radius = 0.7},
                                 .edits = {"environment", "lights"}},
                       .revision = 7,
                       .state = {},
@@ -158,7 +160,8 @@ TEST(ServerMessages, ASnapshotMustBeWholeAndOfThisVersion) {
 TEST(ServerMessages, WhatANewerServerSaysMoreOfTheStateIsIgnored) {
     json snapshot = json::parse(text_from_message(busy_snapshot()));
     const RoomState state = busy_snapshot().state;
-    snapshot["state"]["camera"] = {{"eye", {0, 1, 2}}};
+    snapshot["state"]["atmosphere"] = {{"haze", {0, 1, 2}}};
+    snapshot["state"]["camera"]["shutter"] = 0.5;
     snapshot["state"]["environment"]["horizon"] = 0.5;
     for (json& light : snapshot["state"]["lights"]) {
         light["falloff"] = "square";
@@ -167,7 +170,7 @@ TEST(ServerMessages, WhatANewerServerSaysMoreOfTheStateIsIgnored) {
 
     const json patch = {{"rotation", {{"yaw_degrees", 90}}}, {"lights", {{"key", nullptr}}}};
     json more = patch;
-    more["camera"] = nullptr;
+    more["atmosphere"] = nullptr;
     more["rotation"]["about"] = "y";
     const json change = {{"type", "change"}, {"revision", 9}, {"patch", more}};
     EXPECT_EQ(std::get<Change>(parse_server_message(change.dump())).patch, patch);
@@ -243,7 +246,12 @@ TEST(SceneSummary, WrongTypesAreNamedByTheirPath) {
         wrong[key] = key == "edits" ? nlohmann::json{1} : nlohmann::json{{"a", 1}};
         const std::string path =
             wire_error_of([&] { return scene_summary_from_json(wrong, "/scene"); }).path();
-        EXPECT_EQ(path, key == "edits" ? "/scene/edits/0" : "/scene/" + key);
+        // Of an object, the first field that is missed.
+        const std::string inside = key == "edits"    ? "/0"
+                                   : key == "camera" ? "/eye"
+                                   : key == "bounds" ? "/centre"
+                                                     : "";
+        EXPECT_EQ(path, "/scene/" + key + inside);
     }
 }
 

@@ -17,6 +17,7 @@ TEST(Stages, EachSectionTouchesItsOwn) {
     EXPECT_EQ(stages_of({{"blend", {{"amount", 1}}}}), Stage::signal);
     EXPECT_EQ(stages_of({{"rotation", {{"yaw_degrees", 1}}}}), Stage::signal);
     EXPECT_EQ(stages_of({{"background", {{"mode", "colour"}}}}), Stage::view);
+    EXPECT_EQ(stages_of({{"camera", {{"fov_degrees", 20}}}}), Stage::view);
     EXPECT_EQ(stages_of({{"image", {{"width", 640}}}}), Stage::view);
     EXPECT_EQ(stages_of({{"display", {{"tone", "linear"}}}}), Stage::display);
     EXPECT_EQ(stages_of({{"strategy", {{"method", "bi"}}}}), Stage::policy);

@@ -1,66 +1,22 @@
 #include "server/view/mesh/visible_surface.h"
 
-#include "tests/unit/view/mesh/shapes.h"
+#include "tests/support/surface_shapes.h"
+#include "tests/unit/view/mesh/rays.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace relume::view {
 namespace {
 
+using test::box;
+using test::room;
+using test::together;
 using transport::SurfaceMesh;
-
-// Along the ray through a place of the image, unnormalised: depth along forward is 1.
-Imath::V3d ray_through(const Pinhole& pinhole, double x, double y, double side) {
-    return pinhole.forward + pinhole.right * ((2 * x / side - 1) * pinhole.tan_half_width) +
-           pinhole.up * ((1 - 2 * y / side) * pinhole.tan_half_height);
-}
-
-struct Hit {
-    std::uint32_t triangle = kNoTriangle;
-    double depth = std::numeric_limits<double>::infinity();
-    double margin = 0;  // of the ray from the triangle's nearest edge, as a weight
-};
-
-// Every triangle tried, in double precision [Moller97].
-Hit nearest_front(const SurfaceMesh& mesh, const Imath::V3d& eye, const Imath::V3d& ray) {
-    Hit best;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto& vertices = mesh.triangles[i].vertices;
-        const Imath::V3d a(mesh.positions[vertices[0]]);
-        const Imath::V3d e1 = Imath::V3d(mesh.positions[vertices[1]]) - a;
-        const Imath::V3d e2 = Imath::V3d(mesh.positions[vertices[2]]) - a;
-        const Imath::V3d p = ray.cross(e2);
-        const double determinant = e1.dot(p);
-        if (determinant <= 0) {
-            continue;  // its back, or its edge
-        }
-        const Imath::V3d s = eye - a;
-        const double u = s.dot(p) / determinant;
-        const Imath::V3d q = s.cross(e1);
-        const double v = ray.dot(q) / determinant;
-        const double depth = e2.dot(q) / determinant;
-        const double margin = std::min({u, v, 1 - u - v});
-        if (margin >= 0 && depth > 0 && depth < best.depth) {
-            best = {static_cast<std::uint32_t>(i), depth, margin};
-        }
-    }
-    return best;
-}
-
-Imath::V3d position_of(const SurfaceMesh& mesh, const SurfacePoint& point) {
-    const auto& vertices = mesh.triangles[point.triangle].vertices;
-    const double w1 = point.weight_1;
-    const double w2 = point.weight_2;
-    return Imath::V3d(mesh.positions[vertices[0]]) * (1 - w1 - w2) +
-           Imath::V3d(mesh.positions[vertices[1]]) * w1 +
-           Imath::V3d(mesh.positions[vertices[2]]) * w2;
-}
 
 TEST(VisibleSurface, IsWhatRaysMeetFirst) {
     const SurfaceMesh mesh = together(room(5), box(3, {0.2F, -0.3F, 0.1F}, 0.35F));

@@ -1,14 +1,13 @@
-// Surface meshes to look at.
+// Meshes of a transport of kind `mesh`, to look at.
 #pragma once
 
 #include "protocol/transport/surface_mesh.h"
-#include "server/view/mesh/pixel_space.h"
 
 #include <Imath/ImathVec.h>
 
 #include <cstdint>
 
-namespace relume::view {
+namespace relume::test {
 
 // The inside of a cube of side 2 around the origin, each face cut into cells² squares that do
 // not lie in a lattice. Every direction from inside meets a front. Face f has material f of
@@ -21,9 +20,4 @@ namespace relume::view {
 // Both, the second one's vertices after the first one's.
 [[nodiscard]] transport::SurfaceMesh together(transport::SurfaceMesh first,
                                               const transport::SurfaceMesh& second);
-// A pinhole with a field of view upwards and a square image.
-[[nodiscard]] Pinhole pinhole_at(const Imath::V3d& eye,
-                                 const Imath::V3d& look_at,
-                                 double fov_degrees);
-
-}  // namespace relume::view
+}  // namespace relume::test

@@ -1,18 +1,13 @@
-#include "tests/unit/view/mesh/shapes.h"
+#include "tests/support/surface_shapes.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace relume::view {
+namespace relume::test {
 namespace {
 
 using transport::SurfaceMesh;
-
-struct Face {
-    Imath::V3f across;
-    Imath::V3f along;
-};
 
 // Seen from outside, across × along points outwards.
 constexpr std::array<std::array<int, 6>, 6> kFaces{{{0, 1, 0, 0, 0, 1},
@@ -87,16 +82,4 @@ SurfaceMesh together(SurfaceMesh first, const SurfaceMesh& second) {
     return first;
 }
 
-Pinhole pinhole_at(const Imath::V3d& eye, const Imath::V3d& look_at, double fov_degrees) {
-    Pinhole pinhole{.eye = eye};
-    pinhole.forward = (look_at - eye).normalized();
-    const Imath::V3d up =
-        std::abs(pinhole.forward.y) > 0.99 ? Imath::V3d(0, 0, 1) : Imath::V3d(0, 1, 0);
-    pinhole.right = pinhole.forward.cross(up).normalized();
-    pinhole.up = pinhole.right.cross(pinhole.forward);
-    pinhole.tan_half_height = std::tan(fov_degrees * std::numbers::pi / 360);
-    pinhole.tan_half_width = pinhole.tan_half_height;
-    return pinhole;
-}
-
-}  // namespace relume::view
+}  // namespace relume::test
