@@ -50,6 +50,9 @@ LightProbe::LightProbe(const RayCaster& caster,
       brdfs_(brdfs.begin(), brdfs.end()),
       constant_light_(projection_->basis().constant_light()),
       deviations_(natural_deviations(projection_->basis())) {
+    for (const auto& [index, value] : constant_light_) {
+        deviations_[index] = kFaceDeviation * value;
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         texel_direction_[axis].resize(texels_.size());
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace relume::bake {
@@ -15,9 +16,11 @@ struct Cloud {
     std::vector<Imath::V3f> positions;
     std::vector<Imath::V3f> normals;
     std::vector<std::uint32_t> materials;
+    std::vector<std::vector<float>> rows;
 
     [[nodiscard]] ClusterOrder order() const {
-        return cluster_order({positions, normals, materials});
+        const std::vector<std::span<const float>> spans(rows.begin(), rows.end());
+        return cluster_order({positions, normals, materials, spans});
     }
 };
 
@@ -34,6 +37,8 @@ Cloud cloud(std::size_t count, std::uint32_t materials) {
         cloud.positions.push_back(position * Imath::V3f(2, 1, 0.5F));
         cloud.normals.push_back(normal);
         cloud.materials.push_back(static_cast<std::uint32_t>(i * materials / count));
+        // Light from above and a shadow from one side.
+        cloud.rows.push_back({1 + normal.y, 0.3F * position.x, position.z > 0 ? 1.0F : 0.0F});
     }
     return cloud;
 }
@@ -58,9 +63,26 @@ TEST(ClusterOrder, ClustersHoldEveryVertexOnce) {
     EXPECT_LE(order.clusters.size(), 2U * 3 * 4);  // of 1000 = 3·256 + 232
 }
 
-// The mean distance between two vertices in a row falls far below that of any two.
-TEST(ClusterOrder, NeighboursInOrderAreNeighboursInSpace) {
+// The mean difference of rows of neighbours in the order is far below that of any two.
+TEST(ClusterOrder, NeighboursInOrderAnswerAlike) {
     const Cloud some = cloud(4096, 1);
+    const ClusterOrder order = some.order();
+    const auto mean_difference = [&](std::size_t apart) {
+        double sum = 0;
+        for (std::size_t i = 0; i + apart < order.old_from_new.size(); ++i) {
+            const auto& a = some.rows[order.old_from_new[i]];
+            const auto& b = some.rows[order.old_from_new[i + apart]];
+            sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        }
+        return sum / static_cast<double>(order.old_from_new.size() - apart);
+    };
+    EXPECT_LT(mean_difference(1), 0.06 * mean_difference(2048));
+    EXPECT_LT(mean_difference(16), 0.2 * mean_difference(2048));
+}
+
+TEST(ClusterOrder, EqualRowsAreOrderedInSpace) {
+    Cloud some = cloud(4096, 1);
+    std::fill(some.rows.begin(), some.rows.end(), std::vector<float>{1, 2});
     const ClusterOrder order = some.order();
     const auto mean_distance = [&](std::size_t apart) {
         double sum = 0;

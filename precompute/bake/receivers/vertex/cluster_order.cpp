@@ -10,66 +10,64 @@
 namespace relume::bake {
 namespace {
 
-constexpr std::size_t kDimensions = 6;
-using Place = std::array<float, kDimensions>;
+constexpr std::size_t kCluster = transport::kBlockSize;
+constexpr std::size_t kGroup = 4 * kCluster;
 
-class Halver {
+std::size_t clusters_of(std::size_t vertices) {
+    return (vertices + kCluster - 1) / kCluster;
+}
+
+// By position and normal: into groups.
+class SpaceCutter {
   public:
-    Halver(const VertexTable& vertices, std::span<std::uint32_t> order, float normal_weight)
-        : vertices_(vertices), order_(order) {
+    SpaceCutter(const VertexTable& vertices, std::span<std::uint32_t> order)
+        : vertices_(vertices) {
         const Place sizes = extents(order);
-        normal_scale_ = normal_weight * std::max({sizes[0], sizes[1], sizes[2]});
+        normal_length_ = std::max({sizes[0], sizes[1], sizes[2]});
     }
 
-    // Cuts into clusters, and calls found(first, last) for each in turn.
+    // Sorts and calls found(part) for each group in turn.
     template <typename Found>
-    void cut_clusters(std::size_t first, std::size_t last, Found found) {
-        if (last - first <= transport::kBlockSize) {
-            cut_slots(first, last, transport::kBlockSize);
-            found(first, last);
+    void cut(std::span<std::uint32_t> part, Found found) const {
+        if (part.size() <= kGroup) {
+            found(part);
             return;
         }
-        const std::size_t middle = cut_between_clusters(first, last);
-        cut_clusters(first, middle, found);
-        cut_clusters(middle, last, found);
+        const std::size_t middle = sort_and_choose(part);
+        cut(part.first(middle), found);
+        cut(part.subspan(middle), found);
+    }
+    // Sorts along the widest extent.
+    void sort(std::span<std::uint32_t> part) const {
+        sort_along(widest_of(extents(part)), part);
     }
 
   private:
-    void cut_slots(std::size_t first, std::size_t last, std::size_t room) {
-        for (std::size_t half = room / 2; half > 0; half /= 2) {
-            const std::size_t middle = first + half;
-            if (middle < last) {
-                halve(first, middle, last);
-                cut_slots(middle, last, half);
-                last = middle;
-            }
-        }
-    }
+    static constexpr std::size_t kDimensions = 6;
+    using Place = std::array<float, kDimensions>;
 
-    // Sorts along the widest extent and returns where to cut: at the widest gap, where it is
-    // wide, else in the middle, after full clusters.
-    std::size_t cut_between_clusters(std::size_t first, std::size_t last) {
+    // Where to cut, counted from the first.
+    std::size_t sort_and_choose(std::span<std::uint32_t> part) const {
         constexpr float kWide = 0.25F;  // of the extent
-        const auto some = order_.subspan(first, last - first);
-        const Place sizes = extents(some);
+        const Place sizes = extents(part);
         const std::size_t widest = widest_of(sizes);
-        const auto along = [&](std::uint32_t vertex) { return place_of(vertex)[widest]; };
-        std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(along(a), a) < std::pair(along(b), b);
-        });
+        sort_along(widest, part);
         float widest_gap = kWide * sizes[widest];
-        const std::size_t clusters =
-            (some.size() + transport::kBlockSize - 1) / transport::kBlockSize;
-        std::size_t cut = clusters / 2 * transport::kBlockSize;
-        for (std::size_t i = transport::kBlockSize; i + transport::kBlockSize <= some.size();
-             ++i) {
-            const float gap = along(some[i]) - along(some[i - 1]);
+        std::size_t cut = clusters_of(part.size()) / 2 * kCluster;
+        for (std::size_t i = kCluster; i + kCluster <= part.size(); ++i) {
+            const float gap = place_of(part[i])[widest] - place_of(part[i - 1])[widest];
             if (gap > widest_gap) {
                 widest_gap = gap;
                 cut = i;
             }
         }
-        return first + cut;
+        return cut;
+    }
+
+    void sort_along(std::size_t dimension, std::span<std::uint32_t> part) const {
+        std::sort(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(place_of(a)[dimension], a) < std::pair(place_of(b)[dimension], b);
+        });
     }
 
     [[nodiscard]] static std::size_t widest_of(const Place& sizes) {
@@ -77,27 +75,16 @@ class Halver {
                                         sizes.begin());
     }
 
-    void halve(std::size_t first, std::size_t middle, std::size_t last) {
-        const std::size_t widest = widest_of(extents(order_.subspan(first, last - first)));
-        const auto at = [&](std::size_t i) {
-            return order_.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        std::nth_element(
-            at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
-                return std::pair(place_of(a)[widest], a) < std::pair(place_of(b)[widest], b);
-            });
-    }
-
     [[nodiscard]] Place place_of(std::uint32_t vertex) const {
         const Imath::V3f& p = vertices_.positions[vertex];
-        const Imath::V3f n = vertices_.normals[vertex] * normal_scale_;
+        const Imath::V3f n = vertices_.normals[vertex] * normal_length_;
         return {p.x, p.y, p.z, n.x, n.y, n.z};
     }
 
-    [[nodiscard]] Place extents(std::span<const std::uint32_t> some) const {
-        Place low = place_of(some[0]);
+    [[nodiscard]] Place extents(std::span<const std::uint32_t> part) const {
+        Place low = place_of(part[0]);
         Place high = low;
-        for (const std::uint32_t vertex : some) {
+        for (const std::uint32_t vertex : part) {
             const Place place = place_of(vertex);
             for (std::size_t i = 0; i < kDimensions; ++i) {
                 low[i] = std::min(low[i], place[i]);
@@ -111,34 +98,90 @@ class Halver {
     }
 
     const VertexTable& vertices_;
-    std::span<std::uint32_t> order_;
-    float normal_scale_ = 0;
+    float normal_length_ = 0;
+};
+
+// By rows, where they differ: into clusters and slots.
+class RowCutter {
+  public:
+    RowCutter(const VertexTable& vertices, const SpaceCutter& space)
+        : vertices_(vertices), space_(space) {}
+
+    template <typename Found>
+    void cut_clusters(std::span<std::uint32_t> part, Found found) const {
+        if (part.size() <= kCluster) {
+            cut_slots(part, kCluster);
+            found(part);
+            return;
+        }
+        sort(part);
+        const std::size_t middle = clusters_of(part.size()) / 2 * kCluster;
+        cut_clusters(part.first(middle), found);
+        cut_clusters(part.subspan(middle), found);
+    }
+
+  private:
+    // `room` slots, of which the first are taken.
+    void cut_slots(std::span<std::uint32_t> part, std::size_t room) const {
+        if (part.size() <= 1) {
+            return;
+        }
+        const std::size_t half = room / 2;
+        if (part.size() <= half) {
+            cut_slots(part, half);
+            return;
+        }
+        sort(part);
+        cut_slots(part.first(half), half);
+        cut_slots(part.subspan(half), half);
+    }
+
+    void sort(std::span<std::uint32_t> part) const {
+        const std::vector<double> places = along_widest_axis(vertices_.rows, part);
+        if (places.empty()) {
+            space_.sort(part);
+            return;
+        }
+        std::vector<std::pair<double, std::uint32_t>> sorted;
+        sorted.reserve(part.size());
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            sorted.emplace_back(places[i], part[i]);
+        }
+        std::sort(sorted.begin(), sorted.end());
+        std::transform(sorted.begin(), sorted.end(), part.begin(),
+                       [](const auto& one) { return one.second; });
+    }
+
+    const VertexTable& vertices_;
+    const SpaceCutter& space_;
 };
 
 }  // namespace
 
-ClusterOrder cluster_order(const VertexTable& vertices, float normal_weight) {
+ClusterOrder cluster_order(const VertexTable& vertices) {
     ClusterOrder order;
     order.old_from_new.resize(vertices.materials.size());
     std::iota(order.old_from_new.begin(), order.old_from_new.end(), 0U);
-    std::stable_sort(order.old_from_new.begin(), order.old_from_new.end(),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return vertices.materials[a] < vertices.materials[b];
-                     });
-    const std::size_t count = order.old_from_new.size();
-    for (std::size_t first = 0; first < count;) {
-        const std::uint32_t material = vertices.materials[order.old_from_new[first]];
-        std::size_t last = first;
-        while (last < count && vertices.materials[order.old_from_new[last]] == material) {
-            ++last;
-        }
-        const auto mine = std::span(order.old_from_new).subspan(first, last - first);
-        Halver(vertices, mine, normal_weight)
-            .cut_clusters(0, mine.size(), [&](std::size_t from, std::size_t to) {
-                order.clusters.push_back({.first = static_cast<std::uint32_t>(first + from),
-                                          .count = static_cast<std::uint32_t>(to - from),
+    const auto material_of = [&](std::uint32_t vertex) { return vertices.materials[vertex]; };
+    std::stable_sort(
+        order.old_from_new.begin(), order.old_from_new.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return material_of(a) < material_of(b); });
+    for (auto first = order.old_from_new.begin(); first != order.old_from_new.end();) {
+        const std::uint32_t material = material_of(*first);
+        const auto last =
+            std::find_if(first, order.old_from_new.end(),
+                         [&](std::uint32_t vertex) { return material_of(vertex) != material; });
+        const std::span<std::uint32_t> mine(first, last);
+        const SpaceCutter space(vertices, mine);
+        const RowCutter rows(vertices, space);
+        space.cut(mine, [&](std::span<std::uint32_t> group) {
+            rows.cut_clusters(group, [&](std::span<std::uint32_t> cluster) {
+                order.clusters.push_back({.first = static_cast<std::uint32_t>(
+                                              cluster.data() - order.old_from_new.data()),
+                                          .count = static_cast<std::uint32_t>(cluster.size()),
                                           .material = material});
             });
+        });
         first = last;
     }
     return order;

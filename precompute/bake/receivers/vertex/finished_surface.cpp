@@ -74,7 +74,7 @@ void add_uvs(const scene::Scene& scene, RefinedSurface& surface) {
 
 }  // namespace
 
-RefinedSurface finished_surface(const scene::Scene& scene, const SplitMesh& mesh) {
+RefinedSurface finished_surface(const scene::Scene& scene, const SplitMesh& mesh, Rows rows) {
     const std::size_t count = mesh.vertices().size();
     std::vector<Imath::V3f> positions(count);
     std::vector<Imath::V3f> normals(count);
@@ -84,7 +84,7 @@ RefinedSurface finished_surface(const scene::Scene& scene, const SplitMesh& mesh
         normals[i] = mesh.vertices()[i].normal;
         materials[i] = mesh.vertices()[i].material;
     }
-    ClusterOrder order = cluster_order({positions, normals, materials});
+    ClusterOrder order = cluster_order({positions, normals, materials, rows});
 
     RefinedSurface surface;
     surface.clusters = std::move(order.clusters);

@@ -3,13 +3,17 @@
 #pragma once
 
 #include "precompute/bake/receivers/vertex/refined_surface.h"
+#include "precompute/bake/receivers/vertex/row_axis.h"
 #include "precompute/bake/receivers/vertex/split_mesh.h"
 #include "precompute/scene/scene.h"
 
 namespace relume::bake {
 
-// Of the report, what the mesh knows. Texture coordinates are of the set by which the base
-// colour is looked up, the first where it has no texture.
-[[nodiscard]] RefinedSurface finished_surface(const scene::Scene& scene, const SplitMesh& mesh);
+// `rows` are those of the mesh's vertices, [vertices]. Of the report, what the mesh knows.
+// Texture coordinates are of the set by which the base colour is looked up, the first where it
+// has no texture.
+[[nodiscard]] RefinedSurface finished_surface(const scene::Scene& scene,
+                                              const SplitMesh& mesh,
+                                              Rows rows);
 
 }  // namespace relume::bake

@@ -28,8 +28,8 @@ struct TriangleOrigin {
 };
 
 // Vertices [first, first + count) of one material, at most 256, that are stored together. They
-// lie close to each other and look the same way, and so do any 2^k of them from a multiple of
-// 2^k on, counted from the first.
+// lie in one part of the scene and answer to light alike, and so do any 2^k of them from a
+// multiple of 2^k on, counted from the first.
 struct VertexCluster {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -129,7 +130,11 @@ RefinedSurface refine_surface(const scene::Scene& scene,
     SplitMesh mesh(start_surface(scene, options.most_vertices));
     SurfaceErrors errors(mesh, probe);
     Refiner(mesh, errors, options).run();
-    RefinedSurface surface = finished_surface(scene, mesh);
+    std::vector<std::span<const float>> rows;
+    for (std::uint32_t vertex = 0; vertex < mesh.vertices().size(); ++vertex) {
+        rows.push_back(errors.row(vertex));
+    }
+    RefinedSurface surface = finished_surface(scene, mesh, rows);
     surface.report.probes = errors.probes();
     surface.report.rays = errors.rays();
     surface.report.interpolation_error = errors.relative();

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace relume::bake {
@@ -21,6 +22,10 @@ class SurfaceErrors {
     // middles of chords become those of the vertices that are made there.
     void measure(const SplitMesh::Changes& changes);
 
+    // What was seen at a vertex of the mesh.
+    [[nodiscard]] std::span<const float> row(std::uint32_t vertex) const {
+        return rows_.row(row_of_vertex_[vertex]);
+    }
     // The integral of the squared error over a triangle.
     [[nodiscard]] double squared(std::uint32_t triangle) const;
     // Of the whole surface: the relative L2 error, which is 0 where there is no light.
