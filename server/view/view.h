@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace relume::view {
 
@@ -51,6 +52,10 @@ class View {
     // width·height values.
     virtual void write_coverage(std::span<float> coverage) const = 0;
 
+    // How much the receivers of each block count in the image as it is looked at, [blocks], not
+    // all 0 (engine::Session::set_block_weights); empty where all count alike. Of a block that
+    // counts for nothing, sums are not looked at.
+    [[nodiscard]] virtual std::vector<float> block_weights() const { return {}; }
     // The sums of the next image are not those of the image before.
     virtual void sums_have_changed() {}
     // Prepares for the tiles of one image of these sums.

@@ -29,6 +29,8 @@ class FrameComposer {
     // As the view does. Where it returns true, the background has to be set again.
     bool look(const view::Look& look);
     bool look_closer();
+    // Of the view as it is looked at.
+    [[nodiscard]] std::vector<float> block_weights() const { return view_->block_weights(); }
     // The sums of the next picture are not those of the picture before.
     void sums_have_changed() { view_->sums_have_changed(); }
 

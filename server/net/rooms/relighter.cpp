@@ -99,8 +99,8 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
     const bool light_is_new =
         stages.has(wire::Stage::signal) && set_light(state, environments, problems);
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
-    if (stages.has(wire::Stage::view)) {
-        static_cast<void>(composer_->look(look_of(state)));
+    if (stages.has(wire::Stage::view) && (composer_->look(look_of(state)) || !state_)) {
+        tell_session_what_counts();
     }
     if (stages.has(wire::Stage::view) || (light_is_new && sees_environment)) {
         composer_->set_background(state.background, rig_);
@@ -136,6 +136,18 @@ bool Relighter::set_light(const wire::RoomState& state,
     session_.set_target(coefficients_);
     pixels_changed();
     return true;
+}
+
+// What has not counted is brought up to date where it counts now; an exact image is so already.
+void Relighter::tell_session_what_counts() {
+    const std::vector<float> weights = composer_->block_weights();
+    if (weights.empty()) {
+        return;
+    }
+    session_.set_block_weights(weights);
+    if (!session_.exact()) {
+        composer_->sums_have_changed();
+    }
 }
 
 void Relighter::pixels_changed() {
@@ -189,6 +201,7 @@ void Relighter::compose(const ImageForms& forms, bool settled) {
 
 Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
     if (stamp.settled && composer_->look_closer()) {
+        tell_session_what_counts();
         composer_->set_background(state_->background, rig_);
     }
     compose(forms, stamp.settled);

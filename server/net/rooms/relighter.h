@@ -70,6 +70,8 @@ class Relighter {
     [[nodiscard]] bool set_light(const wire::RoomState& state,
                                  const NamedEnvironments& environments,
                                  std::vector<wire::ErrorMessage>& problems);
+    // Of the view, as it is looked at.
+    void tell_session_what_counts();
     void relit(const engine::StepReport& report, Clock::duration spent);
     void pixels_changed();
     void compose(const ImageForms& forms, bool settled);

@@ -8,7 +8,7 @@ namespace relume::view {
 DrawnSurface::DrawnSurface(std::shared_ptr<const transport::Surface> surface,
                            std::span<const transport::MaterialRecord> materials,
                            const transport::VertexClusters& clusters)
-    : surface_(std::move(surface)) {
+    : surface_(std::move(surface)), clusters_(clusters) {
     textures_.reserve(surface_->textures.size());  // materials point to them
     for (const transport::SurfaceTexture& texture : surface_->textures) {
         textures_.emplace_back(texture);
@@ -24,7 +24,10 @@ DrawnSurface::DrawnSurface(std::shared_ptr<const transport::Surface> surface,
         materials_.push_back(std::move(material));
     }
     first_terms_.reserve(clusters.vertex_count());
-    for (const transport::Cluster& cluster : clusters.clusters()) {
+    clusters_of_vertices_.reserve(clusters.vertex_count());
+    for (std::uint32_t number = 0; number < clusters.clusters().size(); ++number) {
+        const transport::Cluster& cluster = clusters.clusters()[number];
+        clusters_of_vertices_.insert(clusters_of_vertices_.end(), cluster.vertices, number);
         for (std::uint32_t i = 0; i < cluster.vertices; ++i) {
             first_terms_.push_back(static_cast<std::uint32_t>(term_count_));
             term_count_ += cluster.terms;
@@ -34,7 +37,7 @@ DrawnSurface::DrawnSurface(std::shared_ptr<const transport::Surface> surface,
 }
 
 std::size_t DrawnSurface::bytes() const {
-    std::size_t bytes = first_terms_.size() * sizeof(std::uint32_t);
+    std::size_t bytes = 2 * first_terms_.size() * sizeof(std::uint32_t);
     for (const MippedTexture& texture : textures_) {
         bytes += texture.bytes();
     }

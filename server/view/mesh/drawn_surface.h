@@ -31,7 +31,8 @@ struct DrawnMaterial {
 // Immutable; safe to share between threads.
 class DrawnSurface {
   public:
-    // All of one transport, and checked as its reader does.
+    // All of one transport, and checked as its reader does. Keeps a reference to the clusters,
+    // which live as long as the surface.
     DrawnSurface(std::shared_ptr<const transport::Surface> surface,
                  std::span<const transport::MaterialRecord> materials,
                  const transport::VertexClusters& clusters);
@@ -46,6 +47,11 @@ class DrawnSurface {
         return first_terms_[vertex];
     }
     [[nodiscard]] std::size_t term_count() const { return term_count_; }
+    [[nodiscard]] const transport::VertexClusters& clusters() const { return clusters_; }
+    // That a vertex is of.
+    [[nodiscard]] std::uint32_t cluster(std::uint32_t vertex) const {
+        return clusters_of_vertices_[vertex];
+    }
     // The most that one vertex has.
     [[nodiscard]] std::uint32_t most_terms() const { return most_terms_; }
     // Bytes of what it holds beside the transport.
@@ -53,9 +59,11 @@ class DrawnSurface {
 
   private:
     std::shared_ptr<const transport::Surface> surface_;
+    const transport::VertexClusters& clusters_;
     std::vector<MippedTexture> textures_;
     std::vector<DrawnMaterial> materials_;
-    std::vector<std::uint32_t> first_terms_;  // [vertices]
+    std::vector<std::uint32_t> first_terms_;           // [vertices]
+    std::vector<std::uint32_t> clusters_of_vertices_;  // [vertices]
     std::size_t term_count_ = 0;
     std::uint32_t most_terms_ = 0;
 };

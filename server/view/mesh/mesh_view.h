@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/transport/mesh_section.h"
+#include "server/view/mesh/block_weights.h"
 #include "server/view/mesh/drawn_surface.h"
 #include "server/view/mesh/tile_terms.h"
 #include "server/view/mesh/vertex_radiance.h"
@@ -36,6 +37,9 @@ class MeshView final : public View {
     [[nodiscard]] const transport::CameraRecord& camera() const override { return camera_; }
     void write_coverage(std::span<float> coverage) const override;
 
+    [[nodiscard]] std::vector<float> block_weights() const override {
+        return view::block_weights(*surface_, visible_);
+    }
     void sums_have_changed() override { radiance_is_stale_ = true; }
     void begin_image(std::span<const float> sums) override;
     void write_tiles(std::span<const float> sums,

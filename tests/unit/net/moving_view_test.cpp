@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -143,6 +144,47 @@ TEST_F(MovingViewTest, ExactStaysExactThroughAThousandEditsOfTheView) {
     give_state(other, kAllStages);
     relight(other);
     EXPECT_EQ(picture(other, true), settled);
+}
+
+// Blocks that a view does not see are passed by while light moves. When it turns to them they
+// are as for who has looked there all the time.
+TEST_F(MovingViewTest, WhatIsPassedByIsMadeUpFor) {
+    const json here = {{"camera", {{"eye", {10, 20.5, 30}}, {"look_at", {12, 20.5, 30}}}}};
+    const json away = {{"camera", {{"eye", {10, 20.5, 30}}, {"look_at", {8, 20.5, 30}}}}};
+    // What is chosen depends on the light alone.
+    edit({{"strategy", {{"method", "bi"}, {"priority", "area"}}},
+          {"budget", {{"coefficients", 5}}}});
+    edit(here);
+    Relighter steady(scenes_.find("room"), metrics_, std::chrono::seconds(1));
+    give_state(steady, kAllStages);
+    relight(steady);
+    const auto step = [](Relighter& relighter) {
+        Relighter* const self = &relighter;
+        Relighter::advance_together({&self, 1});
+    };
+    const auto image = [](Relighter& relighter) {
+        const Picture picture = relighter.picture({}, {.displays = {}, .half_planes = true}, 0);
+        EXPECT_FALSE(picture.header.exact);
+        return picture.composer->half_image().values;
+    };
+    for (const double yaw : {30.0, 70.0, 140.0}) {
+        edit(away);
+        edit({{"lights", {{"key", {{"direction", {yaw, 40, 25}}}}}}});
+        step(*relighter_);
+        edit(here);
+        give_state(steady, wire::Stage::signal);
+        step(steady);
+        const auto found = image(*relighter_);
+        const auto expected = image(steady);
+        ASSERT_EQ(found.size(), expected.size());
+        float largest = 0;
+        for (const half value : expected) {
+            largest = std::max(largest, std::abs(float{value}));
+        }
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_NEAR(float{found[i]}, float{expected[i]}, 1e-3F * largest) << yaw;
+        }
+    }
 }
 
 // New light while the camera moves shows in the next image.

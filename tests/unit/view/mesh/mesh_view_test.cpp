@@ -214,6 +214,31 @@ TEST_F(MeshViewTest, AnImageDependsOnLookAndSumsAlone) {
     EXPECT_EQ(image_of(view), closer);
 }
 
+// A block counts as far as places show its vertices; one that shows nowhere counts for nothing.
+TEST_F(MeshViewTest, BlocksCountAsFarAsTheyShow) {
+    // Along −X, into the middle of a face.
+    MeshView view = view_of(look_from({0, 0.7, 0}, {-1, 0.7, 0}, 10));
+    const std::vector<float> weights = view.block_weights();
+    ASSERT_EQ(weights.size(), clusters_.block_count());
+    double places = 0;
+    for (std::size_t i = 0; i < clusters_.clusters().size(); ++i) {
+        const transport::Cluster& cluster = clusters_.clusters()[i];
+        const bool is_seen =
+            tiny_.surface.mesh.normals[clusters_.first_vertex(i)] == Imath::V3f(1, 0, 0) &&
+            i < 6;
+        for (std::uint32_t k = 0; k < cluster.terms; ++k) {
+            EXPECT_EQ(weights[clusters_.first_block(i) + k] > 0, is_seen) << i;
+        }
+        places += double{weights[clusters_.first_block(i)]} * cluster.vertices;
+    }
+    EXPECT_NEAR(places, 3 * kSide * kSide, 0.01);
+    // Of what lies behind everything nothing is seen.
+    MeshView outside = view_of(look_from({50, 0, 0}, {60, 0, 0}, 40));
+    for (const float weight : outside.block_weights()) {
+        EXPECT_EQ(weight, 1);
+    }
+}
+
 // What a client needs that has the mesh and draws it by itself.
 TEST_F(MeshViewTest, HandsOutTheRadianceOfEveryTermOfEveryVertex) {
     MeshView view = view_of(look_from({0.9, 0.8, 0.7}, {0.2, -0.3, 0.1}, 50));
