@@ -99,7 +99,9 @@ export class CameraPanel {
             button.addEventListener("click", act);
             root.append(button);
         };
-        for (const { title, words, camera } of kViews) add(title, words, () => this.look(camera));
+        for (const { title, words, camera } of kViews) {
+            add(title, words, () => this.look(camera));
+        }
         add("Frame all", "All of the scene, from this side (A)", () => this.frameAll());
         add("File", "The camera of the scene's file (C)", () => this.reset());
     }

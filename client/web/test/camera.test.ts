@@ -1,5 +1,14 @@
 import { describe, expect, it } from "vitest";
-import { axesOf, dollied, framed, kSides, orbited, panned, seenFrom, type Side } from "../src/camera";
+import {
+    axesOf,
+    dollied,
+    framed,
+    kSides,
+    orbited,
+    panned,
+    seenFrom,
+    type Side,
+} from "../src/camera";
 import type { CameraState, Triple } from "../src/wire/state";
 
 const kCamera: CameraState = {
@@ -23,13 +32,14 @@ function distance({ eye, look_at }: CameraState): number {
 function placeOf(camera: CameraState, point: Triple): [number, number] {
     const { right, upwards, forward } = axesOf(camera);
     const from = point.map((part, i) => part - camera.eye[i]!);
-    const along = (axis: Triple): number => from.reduce((sum, part, i) => sum + part * axis[i]!, 0);
+    const along = (axis: Triple): number =>
+        from.reduce((sum, part, i) => sum + part * axis[i]!, 0);
     const height = 2 * along(forward) * Math.tan((camera.fov_degrees * Math.PI) / 360);
     return [along(right) / height, along(upwards) / height];
 }
 
 describe("orbit", () => {
-    it("keeps distance and what is looked at, and brings what was at the side to the front", () => {
+    it("keeps the distance, and brings what was at the side to the front", () => {
         const turned = orbited(kCamera, 90, 0);
         // A hand to the right turns the scene's front to the right: its left side comes.
         expectClose(turned.eye, [-3, 2, 5]);
