@@ -158,6 +158,7 @@ TEST(StartSurface, TooFewVerticesAreRefusedWithBothNumbers) {
     const std::string by_points = refusal(box, 7);
     EXPECT_NE(by_points.find("at 8 places"), std::string::npos) << by_points;
     EXPECT_NE(by_points.find("at most 7"), std::string::npos) << by_points;
+    EXPECT_NE(by_points.find("MB"), std::string::npos) << by_points;
 }
 
 // A million triangles over four points: found too many before anything is made of them.

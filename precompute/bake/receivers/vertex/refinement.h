@@ -27,8 +27,8 @@ struct RefinementOptions {
 inline constexpr std::size_t kMostSurfaceVertices = 1'000'000;
 
 // The surface is refined until its interpolation error is at most the target, or the next split
-// would make more than the vertices allowed, or no edge can be split. Memory: about 800 bytes
-// and four rows of the probe for each vertex. Runs in parallel and depends on nothing but the
+// would make more than the vertices allowed, or no edge can be split. Memory: about
+// kSurfaceBytesPerVertex for each vertex. Runs in parallel and depends on nothing but the
 // scene, the probe and the options. Throws BakeError as start_surface does, and where an option
 // is out of range.
 [[nodiscard]] RefinedSurface refine_surface(const scene::Scene& scene,

@@ -77,12 +77,18 @@ WeldedPoints welded_points(const scene::Scene& scene) {
     return welded;
 }
 
+// That refinement takes.
+std::size_t megabytes(std::size_t vertices) {
+    return (vertices * kSurfaceBytesPerVertex + 999'999) / 1'000'000;
+}
+
 void check_size(const scene::Scene& scene, std::size_t points, std::size_t most_vertices) {
     if (points > most_vertices) {
         throw BakeError(fmt::format(
             "scene '{}' has vertices at {} places, expected at most {}, as many as the surface "
-            "may have; allow more vertices or simplify the scene",
-            scene.name, points, most_vertices));
+            "may have; allow more vertices, at about {} MB for all of these, or simplify the "
+            "scene",
+            scene.name, points, most_vertices, megabytes(points)));
     }
     if (scene.triangle_count() > kMostTrianglesPerVertex * most_vertices) {
         throw BakeError(fmt::format(
@@ -265,8 +271,10 @@ StartSurface start_surface(const scene::Scene& scene, std::size_t most_vertices)
     if (surface.vertices.size() > most_vertices) {
         throw BakeError(fmt::format(
             "the surface of scene '{}' has {} vertices before any edge is split, expected at "
-            "most {}; allow more vertices or simplify the scene",
-            scene.name, surface.vertices.size(), most_vertices));
+            "most {}; allow more vertices, at about {} MB for all of these, or simplify the "
+            "scene",
+            scene.name, surface.vertices.size(), most_vertices,
+            megabytes(surface.vertices.size())));
     }
     surface.dropped_triangles = scene.triangle_count() - kept.corners.size();
     surface.two_sided_triangles = two_sided;

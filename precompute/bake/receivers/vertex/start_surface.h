@@ -42,6 +42,10 @@ struct StartSurface {
 // Triangles of the scene for each vertex that may be, at most.
 inline constexpr std::size_t kMostTrianglesPerVertex = 16;
 
+// What refinement takes in memory for each vertex, about: a third of it the mesh, the rest the
+// rows of the light's probe at the vertex and in the middles of the edges around it.
+inline constexpr std::size_t kSurfaceBytesPerVertex = 3100;
+
 // Triangles of solid parts (closed_parts.h) have their outer side alone, others both, as those
 // of a material with holes do. Triangles without area, and those that lie where an
 // earlier one does, are dropped. Throws BakeError where nothing is left, where the vertices are
