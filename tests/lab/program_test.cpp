@@ -198,6 +198,22 @@ TEST_F(ProgramTest, BakeNoiseLeavesFiguresAndPicturesAndKeepsItsReference) {
     }
 }
 
+TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
+    const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
+        RELUME_LAB,
+        {"geometry", "--scene", "box", "--vertices", "600", "--terms", "1", "--side", "48",
+         "--images", "6", "--points", "60", "--cache", scratch_.path() / "cache", "--json"},
+        scratch_.path(), "relume-lab"));
+    EXPECT_LE(found.at("configuration").at("vertices").get<int>(), 600);
+    const nlohmann::json& figures = found.at("figures");
+    for (const char* key :
+         {"images_per_s_light_and_view", "images_per_s_view_only", "bytes", "bake_seconds"}) {
+        EXPECT_GT(figures.at(key).get<double>(), 0) << key;
+    }
+    EXPECT_LT(figures.at("interpolation_error").get<double>(), 0.2);
+    EXPECT_LT(figures.at("error_5_images_after_rest").get<double>(), 0.02);
+}
+
 TEST_F(ProgramTest, AMistakeEndsInWords) {
     test::Program run(RELUME_LAB,
                       {"run", "--transport", "/nowhere.relume", "--environment", "sky-noon"},

@@ -46,7 +46,7 @@ void check_parameters(const BakeParameters& p) {
     require_range("shrinkage", p.shrinkage, 0.0F, 10.0F);
     require_range("threads", p.threads, 0U, 1024U);
     require_range("vertices", p.vertices, 3U, kMostVertices);
-    require_range("target error", p.target_error, 0.0, 1.0);
+    require_range("target error", p.target_error, 1e-6, 1.0);
     require_range("terms", p.terms, 0U, kMostTerms);
 }
 

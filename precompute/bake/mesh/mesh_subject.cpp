@@ -17,6 +17,9 @@ MeshMaterials materials_of(const scene::Scene& scene, const BakeParameters& para
     return mesh_materials(
         scene,
         {.method = parameters.factor_method,
+         .light = parameters.factor_method == factors::Method::svd
+                      ? factors::LightModel::natural
+                      : factors::LightModel::uncorrelated,
          .target_error = parameters.target_error,
          .terms = parameters.terms > 0 ? std::optional(parameters.terms) : std::nullopt});
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace relume::view {
@@ -29,12 +30,14 @@ std::vector<Share> shares_of(std::uint32_t texel, std::uint32_t from, std::uint3
     return shares;
 }
 
-std::vector<half> shrunk(std::span<const half> rgb,
-                         std::uint32_t width,
-                         std::uint32_t height,
-                         std::uint32_t to_width,
-                         std::uint32_t to_height) {
-    std::vector<half> smaller(std::size_t{3} * to_width * to_height);
+// Calls at(column, row) for the first level's texel, and the like for others.
+template <typename At>
+void shrink(const At& at,
+            std::uint32_t width,
+            std::uint32_t height,
+            std::uint32_t to_width,
+            std::uint32_t to_height,
+            std::array<float, 4>* smaller) {
     std::vector<std::vector<Share>> columns;
     for (std::uint32_t x = 0; x < to_width; ++x) {
         columns.push_back(shares_of(x, width, to_width));
@@ -42,33 +45,41 @@ std::vector<half> shrunk(std::span<const half> rgb,
     for (std::uint32_t y = 0; y < to_height; ++y) {
         const std::vector<Share> rows = shares_of(y, height, to_height);
         for (std::uint32_t x = 0; x < to_width; ++x) {
-            std::array<float, 3> sum{};
+            std::array<float, 4>& sum = smaller[std::size_t{y} * to_width + x];
             for (const Share& row : rows) {
                 for (const Share& column : columns[x]) {
-                    const std::size_t at = 3 * (std::size_t{row.texel} * width + column.texel);
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        sum[c] += row.weight * column.weight * float{rgb[at + c]};
+                    const Imath::V3f texel = at(column.texel, row.texel);
+                    for (int c = 0; c < 3; ++c) {
+                        sum[static_cast<std::size_t>(c)] +=
+                            row.weight * column.weight * texel[c];
                     }
                 }
             }
-            for (std::size_t c = 0; c < 3; ++c) {
-                smaller[3 * (std::size_t{y} * to_width + x) + c] = half(sum[c]);
-            }
         }
     }
-    return smaller;
 }
 
-// `at` may be any whole number that a float holds.
-std::uint32_t wrapped(float at, std::uint32_t size, TextureWrap wrap) {
-    const auto texels = static_cast<float>(size);
-    if (wrap == TextureWrap::clamp) {
-        return static_cast<std::uint32_t>(std::clamp(at, 0.0F, texels - 1));
+std::uint32_t wrapped(std::int32_t at, std::uint32_t size, TextureWrap wrap) {
+    if (static_cast<std::uint32_t>(at) < size) {
+        return static_cast<std::uint32_t>(at);
     }
-    const float period = wrap == TextureWrap::mirror ? 2 * texels : texels;
-    const float within = std::clamp(at - std::floor(at / period) * period, 0.0F, period - 1);
-    const auto texel = static_cast<std::uint32_t>(within);
-    return texel < size ? texel : 2 * size - 1 - texel;
+    const auto texels = static_cast<std::int32_t>(size);
+    if (wrap == TextureWrap::clamp) {
+        return at < 0 ? 0 : size - 1;
+    }
+    if (wrap == TextureWrap::repeat && std::has_single_bit(size)) {
+        return static_cast<std::uint32_t>(at) & (size - 1);
+    }
+    const std::int32_t period = wrap == TextureWrap::mirror ? 2 * texels : texels;
+    const std::int32_t remainder = at % period;
+    const std::int32_t within = remainder < 0 ? remainder + period : remainder;
+    return static_cast<std::uint32_t>(within < texels ? within : period - 1 - within);
+}
+
+// The whole number at or below; quicker than the library's, which takes all numbers.
+std::int32_t floor_of(float texels) {
+    const auto towards_zero = static_cast<std::int32_t>(texels);
+    return towards_zero - (static_cast<float>(towards_zero) > texels ? 1 : 0);
 }
 
 // Beyond this many texels a float knows no places between them.
@@ -80,57 +91,94 @@ float bounded(float texels) {
 }  // namespace
 
 MippedTexture::MippedTexture(const transport::SurfaceTexture& texture) : texture_(texture) {
-    levels_.push_back({texture.width, texture.height, texture.rgb});
+    static_assert(sizeof(Texel) == sizeof(std::array<float, 4>));
+    levels_.push_back({texture.width, texture.height, {}});
     while (levels_.back().width > 1 || levels_.back().height > 1) {
         const Level& last = levels_.back();
-        const std::uint32_t width = std::max(last.width / 2, 1U);
-        const std::uint32_t height = std::max(last.height / 2, 1U);
-        smaller_.push_back(shrunk(last.rgb, last.width, last.height, width, height));
-        levels_.push_back({width, height, smaller_.back()});
+        Level next{.width = std::max(last.width / 2, 1U),
+                   .height = std::max(last.height / 2, 1U),
+                   .texels = {}};
+        next.texels.resize(std::size_t{next.width} * next.height);
+        const auto at = [&](std::uint32_t column, std::uint32_t row) {
+            const std::size_t place = std::size_t{row} * last.width + column;
+            if (last.texels.empty()) {
+                const half* const rgb = &texture.rgb[3 * place];
+                return Imath::V3f(rgb[0], rgb[1], rgb[2]);
+            }
+            const auto& rgb = last.texels[place].rgb;
+            return Imath::V3f(rgb[0], rgb[1], rgb[2]);
+        };
+        shrink(at, last.width, last.height, next.width, next.height, &next.texels[0].rgb);
+        levels_.push_back(std::move(next));
     }
 }
 
 std::size_t MippedTexture::bytes() const {
     std::size_t bytes = 0;
-    for (const std::vector<half>& level : smaller_) {
-        bytes += level.size() * sizeof(half);
+    for (const Level& level : levels_) {
+        bytes += level.texels.size() * sizeof(Texel);
     }
     return bytes;
 }
 
-Imath::V3f MippedTexture::bilinear(std::size_t level, const Imath::V2f& uv) const {
-    const Level& texels = levels_[level];
-    const float x = bounded(uv.x * static_cast<float>(texels.width) - 0.5F);
-    const float y = bounded((1 - uv.y) * static_cast<float>(texels.height) - 0.5F);
-    const float left = std::floor(x);
-    const float top = std::floor(y);
-    const auto texel = [&](float at_x, float at_y) {
-        const std::uint32_t column = wrapped(at_x, texels.width, texture_.wrap_u);
-        const std::uint32_t row = wrapped(at_y, texels.height, texture_.wrap_v);
-        const half* const rgb = &texels.rgb[3 * (std::size_t{row} * texels.width + column)];
-        return Imath::V3f(rgb[0], rgb[1], rgb[2]);
-    };
-    const float right_share = x - left;
-    const float lower_share = y - top;
-    return (texel(left, top) * (1 - right_share) + texel(left + 1, top) * right_share) *
-               (1 - lower_share) +
-           (texel(left, top + 1) * (1 - right_share) + texel(left + 1, top + 1) * right_share) *
-               lower_share;
+MippedTexture::Corner MippedTexture::corner_at(const Level& level, const Imath::V2f& uv) const {
+    const float x = bounded(uv.x * static_cast<float>(level.width) - 0.5F);
+    const float y = bounded((1 - uv.y) * static_cast<float>(level.height) - 0.5F);
+    const std::int32_t left = floor_of(x);
+    const std::int32_t top = floor_of(y);
+    return {.columns = {wrapped(left, level.width, texture_.wrap_u),
+                        wrapped(left + 1, level.width, texture_.wrap_u)},
+            .rows = {wrapped(top, level.height, texture_.wrap_v),
+                     wrapped(top + 1, level.height, texture_.wrap_v)},
+            .right_share = x - static_cast<float>(left),
+            .lower_share = y - static_cast<float>(top)};
 }
 
-Imath::V3f MippedTexture::trilinear(float level, const Imath::V2f& uv) const {
+void MippedTexture::add_bilinear(std::size_t level,
+                                 const Imath::V2f& uv,
+                                 float weight,
+                                 Texel& sum) const {
+    const Level& of = levels_[level];
+    const Corner corner = corner_at(of, uv);
+    const std::array<float, 2> across{1 - corner.right_share, corner.right_share};
+    const std::array<float, 2> along{1 - corner.lower_share, corner.lower_share};
+    for (std::size_t row = 0; row < 2; ++row) {
+        for (std::size_t column = 0; column < 2; ++column) {
+            const float part = weight * along[row] * across[column];
+            const std::size_t place =
+                std::size_t{corner.rows[row]} * of.width + corner.columns[column];
+            if (of.texels.empty()) {
+                const half* const rgb = &texture_.rgb[3 * place];
+                for (std::size_t c = 0; c < 3; ++c) {
+                    sum.rgb[c] += part * float{rgb[c]};
+                }
+                continue;
+            }
+            for (std::size_t c = 0; c < 4; ++c) {
+                sum.rgb[c] += part * of.texels[place].rgb[c];
+            }
+        }
+    }
+}
+
+void MippedTexture::add_trilinear(float level,
+                                  const Imath::V2f& uv,
+                                  float weight,
+                                  Texel& sum) const {
     const auto coarsest = static_cast<float>(levels_.size() - 1);
     const float bound = std::clamp(level, 0.0F, coarsest);
     const auto finer = static_cast<std::size_t>(bound);
     const float share = bound - static_cast<float>(finer);
-    const Imath::V3f fine = bilinear(finer, uv);
-    return share > 0 ? fine * (1 - share) + bilinear(finer + 1, uv) * share : fine;
+    add_bilinear(finer, uv, weight * (1 - share), sum);
+    if (share > 0) {
+        add_bilinear(finer + 1, uv, weight * share, sum);
+    }
 }
 
 Imath::V3f MippedTexture::mean(const Imath::V2f& uv,
                                const Imath::V2f& across,
                                const Imath::V2f& along) const {
-    constexpr float kMostProbes = 8;
+    constexpr float kMostProbes = 4;
     const auto texels_of = [this](const Imath::V2f& side) {
         const float length = std::hypot(side.x * static_cast<float>(texture_.width),
                                         side.y * static_cast<float>(texture_.height));
@@ -143,15 +191,12 @@ Imath::V3f MippedTexture::mean(const Imath::V2f& uv,
     const float shorter = std::max(is_longer_across ? texels_along : texels_across, 1.0F);
     const float probes = std::clamp(std::ceil(longer / shorter), 1.0F, kMostProbes);
     const float level = std::log2(std::max(longer / probes, shorter));
-    if (probes == 1) {
-        return trilinear(level, uv);
-    }
     const Imath::V2f& side = is_longer_across ? across : along;
-    Imath::V3f sum(0);
+    Texel sum;
     for (float i = 0.5F; i < probes; ++i) {
-        sum += trilinear(level, uv + side * (i / probes - 0.5F));
+        add_trilinear(level, uv + side * (i / probes - 0.5F), 1 / probes, sum);
     }
-    return sum / probes;
+    return {sum.rgb[0], sum.rgb[1], sum.rgb[2]};
 }
 
 }  // namespace relume::view

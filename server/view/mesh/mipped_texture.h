@@ -6,6 +6,7 @@
 #include <Imath/ImathVec.h>
 #include <Imath/half.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,7 +19,7 @@ class MippedTexture {
     explicit MippedTexture(const transport::SurfaceTexture& texture);
 
     // The mean over about the parallelogram around `uv` that these two vectors span: up to
-    // eight places along its longer side, each as wide as the shorter one. Finite wherever it
+    // four places along its longer side, each as wide as the shorter one. Finite wherever it
     // is.
     [[nodiscard]] Imath::V3f mean(const Imath::V2f& uv,
                                   const Imath::V2f& across,
@@ -28,18 +29,30 @@ class MippedTexture {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    // Red, green and blue; the fourth pads, so that a texel is one vector.
+    struct alignas(16) Texel {
+        std::array<float, 4> rgb{};
+    };
     // Half as wide and high as the one before, rounded down, and at least one texel.
     struct Level {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
-        std::span<const half> rgb;
+        std::vector<Texel> texels;  // of the first level none: those are the texture's own
+    };
+    // The texels of a level around a place, and how much of the right and lower ones counts.
+    struct Corner {
+        std::array<std::uint32_t, 2> columns{};
+        std::array<std::uint32_t, 2> rows{};
+        float right_share = 0;
+        float lower_share = 0;
     };
 
-    [[nodiscard]] Imath::V3f bilinear(std::size_t level, const Imath::V2f& uv) const;
-    [[nodiscard]] Imath::V3f trilinear(float level, const Imath::V2f& uv) const;
+    [[nodiscard]] Corner corner_at(const Level& level, const Imath::V2f& uv) const;
+    // Adds `weight` times the texture at a place.
+    void add_bilinear(std::size_t level, const Imath::V2f& uv, float weight, Texel& sum) const;
+    void add_trilinear(float level, const Imath::V2f& uv, float weight, Texel& sum) const;
 
     const transport::SurfaceTexture& texture_;
-    std::vector<std::vector<half>> smaller_;
     std::vector<Level> levels_;
 };
 
