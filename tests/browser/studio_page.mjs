@@ -42,7 +42,7 @@ export class StudioPage {
     /** The condition is a function of window.relume, evaluated in the page. */
     async until(condition, argument) {
         const source = `window.relume !== undefined && (${condition})(window.relume, ${JSON.stringify(argument ?? null)})`;
-        await this.page.waitForFunction(source);
+        return await (await this.page.waitForFunction(source)).jsonValue();
     }
 
     /** Tries an assertion until it holds: what is shown follows what is known by a frame. */

@@ -149,6 +149,13 @@ describe("messages", () => {
             );
         expect(snapshot({ bake_error: 0.008 })).toMatchObject({ scene: { bake_error: 0.008 } });
         expect(snapshot({})).toMatchObject({ scene });
+        const moving = {
+            edits: ["environment", "camera", "image"],
+            bounds: { centre: [1, 2, 3], radius: 4 },
+            camera: { eye: [5, 6, 7], look_at: [1, 2, 3], up: [0, 1, 0], fov_degrees: 40 },
+        };
+        expect(snapshot(moving)).toMatchObject({ scene: moving });
+        expect(() => snapshot({ bounds: { centre: [1, 2], radius: 4 } })).toThrow("centre");
         expect(bakeErrorText(0.008)).toBe("bake ± 0.8 %");
         expect(bakeErrorText(undefined)).toBe("");
     });

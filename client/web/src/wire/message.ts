@@ -104,6 +104,48 @@ function optionalText(value: Json | undefined): string | undefined {
     return typeof value === "string" ? value : JSON.stringify(value);
 }
 
+function tripleAt(object: JsonObject, key: string): Triple {
+    const value = object[key];
+    const isTriple =
+        Array.isArray(value) &&
+        value.length === 3 &&
+        value.every((number) => typeof number === "number");
+    if (!isTriple) {
+        throw new WireError(`"${key}" is ${JSON.stringify(value)}, expected three numbers`);
+    }
+    return value as Triple;
+}
+
+/** What an older server does not say is left out. */
+function sceneFromJson(json: JsonObject): SceneSummary {
+    const scene: SceneSummary = {
+        name: textAt(json, "name"),
+        width: numberAt(json, "width"),
+        height: numberAt(json, "height"),
+        face_resolution: numberAt(json, "face_resolution"),
+    };
+    const { bake_error: bakeError, bounds, camera, edits } = json;
+    if (typeof bakeError === "number") scene.bake_error = bakeError;
+    if (isObject(bounds)) {
+        scene.bounds = {
+            centre: tripleAt(bounds, "centre"),
+            radius: numberAt(bounds, "radius"),
+        };
+    }
+    if (isObject(camera)) {
+        scene.camera = {
+            eye: tripleAt(camera, "eye"),
+            look_at: tripleAt(camera, "look_at"),
+            up: tripleAt(camera, "up"),
+            fov_degrees: numberAt(camera, "fov_degrees"),
+        };
+    }
+    if (Array.isArray(edits)) {
+        scene.edits = edits.filter((section): section is string => typeof section === "string");
+    }
+    return scene;
+}
+
 export function refusalFromJson(json: JsonObject): Refusal {
     const refusal: Refusal = {
         type: "error",
@@ -146,19 +188,11 @@ export function messageFromText(text: string): ServerMessage | null {
                     `server speaks protocol ${protocol}, this page ${kProtocolVersion}`,
                 );
             }
-            const scene = objectAt(json, "scene");
-            const bakeError = scene["bake_error"];
             return {
                 type: "snapshot",
                 protocol,
                 room: textAt(json, "room"),
-                scene: {
-                    name: textAt(scene, "name"),
-                    width: numberAt(scene, "width"),
-                    height: numberAt(scene, "height"),
-                    face_resolution: numberAt(scene, "face_resolution"),
-                    ...(typeof bakeError === "number" ? { bake_error: bakeError } : {}),
-                },
+                scene: sceneFromJson(objectAt(json, "scene")),
                 revision: numberAt(json, "revision"),
                 state: objectAt(json, "state") as unknown as RoomState,
                 viewers: numberAt(json, "viewers"),
