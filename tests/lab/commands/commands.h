@@ -21,6 +21,7 @@ struct Command {
 [[nodiscard]] Command add_light_filter_command(CLI::App& program);
 [[nodiscard]] Command add_bake_noise_command(CLI::App& program);
 [[nodiscard]] Command add_geometry_command(CLI::App& program);
+[[nodiscard]] Command add_brdf_terms_command(CLI::App& program);
 [[nodiscard]] Command add_stability_command(CLI::App& program);
 
 }  // namespace relume::lab

@@ -2,8 +2,8 @@
 
 #include "precompute/factors/error.h"
 #include "precompute/factors/merl_brdf.h"
+#include "tests/support/merl_file.h"
 #include "tests/unit/factors/directions.h"
-#include "tests/unit/factors/merl_file.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,7 @@ namespace {
 
 using Imath::V3f;
 using scene::Bsdf;
+using test::merl_file;
 
 const Bsdf& glossy() {
     static const Bsdf bsdf = Bsdf::phong({0.3F, 0.2F, 0.1F}, V3f(0.4F), 12);

@@ -2,8 +2,8 @@
 
 #include "precompute/factors/error.h"
 #include "precompute/scene/bsdf.h"
+#include "tests/support/merl_file.h"
 #include "tests/unit/factors/directions.h"
-#include "tests/unit/factors/merl_file.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +17,8 @@ namespace relume::factors {
 namespace {
 
 using Imath::V3f;
+using test::merl_file;
+using test::PairOfDirections;
 
 const scene::Bsdf& material() {
     static const scene::Bsdf bsdf =

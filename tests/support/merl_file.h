@@ -13,7 +13,7 @@
 #include <numbers>
 #include <vector>
 
-namespace relume::factors {
+namespace relume::test {
 
 using Formula = std::function<Imath::V3f(const Imath::V3f& wi, const Imath::V3f& wo)>;
 
@@ -34,7 +34,7 @@ struct PairOfDirections {
 
 // The values at the middles of the cells; −1 where a direction lies below the horizon.
 inline std::vector<std::byte> merl_file(const Formula& formula) {
-    std::vector<std::byte> bytes(MerlBrdf::kFileBytes);
+    std::vector<std::byte> bytes(factors::MerlBrdf::kFileBytes);
     const std::int32_t counts[]{90, 90, 180};
     std::memcpy(bytes.data(), counts, sizeof(counts));
     const double scales[]{1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
@@ -49,8 +49,9 @@ inline std::vector<std::byte> merl_file(const Formula& formula) {
                 const Imath::V3f value = is_above ? formula(pair.wi, pair.wo) : Imath::V3f(-1);
                 for (std::size_t c = 0; c < 3; ++c) {
                     const double stored = value[static_cast<int>(c)] / scales[c];
-                    std::memcpy(&bytes[12 + (c * MerlBrdf::kCells + cell) * sizeof(double)],
-                                &stored, sizeof(double));
+                    std::memcpy(
+                        &bytes[12 + (c * factors::MerlBrdf::kCells + cell) * sizeof(double)],
+                        &stored, sizeof(double));
                 }
             }
         }
@@ -58,4 +59,4 @@ inline std::vector<std::byte> merl_file(const Formula& formula) {
     return bytes;
 }
 
-}  // namespace relume::factors
+}  // namespace relume::test
