@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -58,12 +59,13 @@ Values values_of(std::span<const std::byte> planes) {
             double stored = 0;
             std::memcpy(&stored, &planes[(colour * MerlBrdf::kCells + i) * sizeof(double)],
                         sizeof(double));
-            const auto value = static_cast<float>(stored * kScales[colour]);
-            if (!std::isfinite(value)) {
+            const double scaled = stored * kScales[colour];
+            if (!(std::fabs(scaled) <= std::numeric_limits<float>::max())) {
                 throw FactorError(fmt::format(
                     "value {} of plane {} is {}, expected one finite in single precision", i,
                     colour, stored));
             }
+            const auto value = static_cast<float>(scaled);
             values.unmeasured += value < 0 ? 1U : 0U;
             values.cells[i][static_cast<int>(colour)] = std::max(value, 0.0F);
         }
