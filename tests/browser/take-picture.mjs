@@ -1,5 +1,7 @@
 /**
- * Takes client/web/pictures/studio.png anew: `tests/browser/run` sets the same variables.
+ * Takes client/web/pictures/studio.png and street.jpg anew: `tests/browser/run` sets the same
+ * variables. Of a scene whose camera moves the picture is taken from elsewhere, of another the
+ * lights are set up.
  * usage: STUDIO_SERVER=… STUDIO_SCENES=… STUDIO_WEB_ROOT=… CHROMIUM=… node take-picture.mjs FILE
  */
 import { Server } from "./programs.mjs";
@@ -7,7 +9,7 @@ import { launchBrowser, StudioPage } from "./studio_page.mjs";
 
 const [file] = process.argv.slice(2);
 if (file === undefined) {
-    console.error("usage: node take-picture.mjs FILE.png");
+    console.error("usage: node take-picture.mjs FILE.png|FILE.jpg");
     process.exit(2);
 }
 
@@ -25,17 +27,21 @@ try {
     await studio.untilExact();
     await page.locator(".environment", { hasText: /^sunset$/ }).click();
     await studio.until((relume) => relume.state.environment.name === "sunset");
-    for (const light of ["key", "fill"]) {
-        await page.keyboard.press("l");
-        await studio.until((relume, id) => id in relume.state.lights, light);
+    if (await page.locator("#camera-card").isVisible()) {
+        await studio.drag(290, -55, { steps: 20 });
+    } else {
+        for (const light of ["key", "fill"]) {
+            await page.keyboard.press("l");
+            await studio.until((relume, id) => id in relume.state.lights, light);
+        }
+        await studio.light("key").locator(".light-row").dblclick();
+        await page.locator(".light-rename").fill("Window");
+        await page.keyboard.press("Enter");
+        await studio.light("key").locator(".light-row").click();
+        await studio.type("power EV", "-0.5");
+        await studio.type("colour", "4500K");
+        for (const across of [240, 180, -60]) await studio.drag(across, 0, { steps: 20 });
     }
-    await studio.light("key").locator(".light-row").dblclick();
-    await page.locator(".light-rename").fill("Window");
-    await page.keyboard.press("Enter");
-    await studio.light("key").locator(".light-row").click();
-    await studio.type("power EV", "-0.5");
-    await studio.type("colour", "4500K");
-    for (const across of [240, 180, -60]) await studio.drag(across, 0, { steps: 20 });
     await studio.untilExact();
     await page.mouse.move(800, 990);
     await page.screenshot({ path: file });

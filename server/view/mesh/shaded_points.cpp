@@ -27,12 +27,9 @@ RELUME_CPU_CLONES void normalise(float* __restrict x,
     }
 }
 
-// Cosines of at least this much are above the horizon.
-constexpr float kLeastCosine = 1e-4F;
-
 void raise_to_horizon(float* z, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-        z[i] = z[i] > kLeastCosine ? z[i] : kLeastCosine;
+        z[i] = z[i] > brdf::kLeastViewCosine ? z[i] : brdf::kLeastViewCosine;
     }
 }
 
