@@ -29,7 +29,7 @@ struct BakeParameters {
     std::uint32_t pool_radius = 4;     // pixels whose paths are shared; 0: none
     float shrinkage = 2.0F;            // standard errors a coefficient must stand clear of
     // Of vertices:
-    std::uint32_t vertices = 40'000;  // at most
+    std::uint32_t vertices = 250'000;  // at most
     double target_error = 0.02;       // relative L2 that is asked of interpolation and of terms
     std::uint32_t terms = 0;          // of every material; 0: as few as meet target_error
     factors::Method factor_method = factors::Method::svd;
