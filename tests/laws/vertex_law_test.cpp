@@ -35,9 +35,11 @@ constexpr std::uint32_t kSeeds = 10;
 struct LitSurface {
     scene::Scene scene;
     bake::RayCaster caster{scene};
-    bake::RefinedSurface surface = bake::refine_surface(
-        scene, bake::LightProbe(caster, {}), {.most_vertices = kVertices, .target_error = 0});
     std::vector<brdf::FactoredBrdf> brdfs = lambert_of(scene);
+    bake::RefinedSurface surface =
+        bake::refine_surface(scene,
+                             bake::LightProbe(caster, pointers(brdfs), {}),
+                             {.most_vertices = kVertices, .target_error = 0});
     bake::VertexReceivers vertices{scene, surface, pointers(brdfs)};
 
     explicit LitSurface(const char* name) : scene(scene::build_builtin_scene(name)) {}
