@@ -13,7 +13,6 @@
 namespace relume::bake {
 namespace {
 
-constexpr float kStepGrowth = 0.7F;  // β
 constexpr std::size_t kColumnsPerBand = 256;
 // Where [Ng03]'s levels happen to hit every value: no less than this, relative.
 constexpr double kFinestError = 1e-5;

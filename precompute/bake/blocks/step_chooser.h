@@ -19,6 +19,8 @@
 
 namespace relume::bake {
 
+inline constexpr float kStepGrowth = 0.7F;  // β
+
 class StepChooser {
   public:
     // Keeps some columns of every band.

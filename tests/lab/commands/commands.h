@@ -22,6 +22,7 @@ struct Command {
 [[nodiscard]] Command add_bake_noise_command(CLI::App& program);
 [[nodiscard]] Command add_geometry_command(CLI::App& program);
 [[nodiscard]] Command add_brdf_terms_command(CLI::App& program);
+[[nodiscard]] Command add_cpca_command(CLI::App& program);
 [[nodiscard]] Command add_stability_command(CLI::App& program);
 
 }  // namespace relume::lab
