@@ -20,7 +20,7 @@ namespace relume::lab {
 namespace {
 
 struct Options {
-    std::vector<std::string> scenes{"table"};
+    std::vector<std::string> scenes{"box"};
     std::string environment = "studio";
     std::string sequence = "quick-turn";
     CpcaOptions cpca;
@@ -29,7 +29,9 @@ struct Options {
 
     Options() {
         cpca.bake.receivers = bake::ReceiverKind::vertices;
-        cpca.bake.vertices = 80'000;
+        cpca.bake.vertices = 4096;
+        cpca.bake.target_error = 0.004;
+        cpca.most_runs = 4;
         cpca.bake.face_resolution = 32;
         cpca.bake.samples = 16;
     }

@@ -98,7 +98,9 @@ std::vector<bake::ShardClusters> some_shards(const bake::Receivers& receivers,
     const std::size_t count = std::min(most_runs, runs);
     std::vector<bake::ShardClusters> some;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t first = (2 * i + 1) * runs / (2 * count) * length;
+        // A run in the middle of its share; the last one ends where the shards do.
+        const std::size_t middle = (2 * i + 1) * runs / (2 * count) * length;
+        const std::size_t first = std::min(middle, all.size() - std::min(length, all.size()));
         for (std::size_t shard = first; shard < std::min(first + length, all.size()); ++shard) {
             some.push_back(all[shard]);
         }
