@@ -94,16 +94,15 @@ std::vector<bake::ShardClusters> some_shards(const bake::Receivers& receivers,
     const std::vector<bake::ShardClusters> all = bake::shards_of(receivers);
     const std::size_t length =
         std::max<std::size_t>(kClustersPerRun / receivers.clusters_per_shard(), 1);
-    const std::size_t runs = (all.size() + length - 1) / length;
-    const std::size_t count = std::min(most_runs, runs);
+    const std::size_t runs = all.size() / length;  // that are full
+    if (most_runs > runs) {
+        return all;
+    }
     std::vector<bake::ShardClusters> some;
-    for (std::size_t i = 0; i < count; ++i) {
-        // A run in the middle of its share; the last one ends where the shards do.
-        const std::size_t middle = (2 * i + 1) * runs / (2 * count) * length;
-        const std::size_t first = std::min(middle, all.size() - std::min(length, all.size()));
-        for (std::size_t shard = first; shard < std::min(first + length, all.size()); ++shard) {
-            some.push_back(all[shard]);
-        }
+    for (std::size_t i = 0; i < most_runs; ++i) {
+        const std::size_t first = (2 * i + 1) * runs / (2 * most_runs) * length;
+        some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(first),
+                    all.begin() + static_cast<std::ptrdiff_t>(first + length));
     }
     return some;
 }
