@@ -172,8 +172,8 @@ class MaterialReader {
             scene_.meshes.begin(), scene_.meshes.end(), [&](const scene::Mesh& mesh) {
                 return !mesh.colours.empty() && &scene_.materials[mesh.material] == &material_;
             });
-        if (has_colours) {
-            note("colours of vertices are seen in what it sheds on others alone");
+        if (has_colours && material_.model != scene::BsdfModel::lambert) {
+            note("colours of vertices dye its highlights as well");
         }
     }
 

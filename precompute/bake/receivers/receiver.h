@@ -33,6 +33,8 @@ struct ReceiverSurface {
     // viewers in any direction. `point` then has a white Lambert BSDF, the normal of the vertex
     // as both its normals, and brdf::local_frame of it. Outlives the receiver.
     const brdf::FactoredBrdf* brdf = nullptr;
+    // Of such a surface: what its rows are multiplied with, beside the colours of the lobes.
+    Imath::V3f colour{1, 1, 1};
 };
 
 // Where a receiver's random numbers lie in the sequences that all receivers share. Receivers

@@ -59,9 +59,14 @@ void RowBaker::bake(const TracedReceiver& traced,
     direct_.compute(traced.receiver, seed_, scratch.texels, scratch.direct);
     project_terms(surfaces[0], rows, scratch);
     add_indirect(traced, pool, rows, scratch);
+    const Imath::V3f& colour = surfaces[0].colour;
     for (CoefficientRow& row : rows) {
-        row.direct_white = {1, 1, 1};
-        row.white = {1, 1, 1};
+        for (int c = 0; c < 3 && colour != Imath::V3f(1); ++c) {
+            std::vector<float>& plane = row.rgb[static_cast<std::size_t>(c)];
+            scale(plane, colour[c], plane);
+        }
+        row.direct_white = colour;
+        row.white = colour;
     }
 }
 

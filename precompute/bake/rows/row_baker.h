@@ -16,12 +16,13 @@
 
 namespace relume::bake {
 
-// The white responses give a receiver its tint, which a term of a vertex has none of: g_k may
-// be negative, so that the response to white light says nothing of how colourful others are.
+// The white responses give a receiver its tint. A term of a vertex takes the vertex's own
+// colour for it: g_k may be negative, so that the response to white light says nothing of how
+// colourful others are.
 struct CoefficientRow {
     std::array<std::vector<float>, 3> rgb;  // N values each
     Imath::V3f direct_white{0, 0, 0};       // response to a white light, direct part
-    Imath::V3f white{0, 0, 0};              // all of it; both are white for a term of a vertex
+    Imath::V3f white{0, 0, 0};              // all of it
 };
 
 class RowBaker {

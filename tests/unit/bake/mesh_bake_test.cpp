@@ -91,6 +91,31 @@ TEST_F(MeshBake, AnOpenPlaneShowsItsAlbedoUnderAConstantLight) {
     }
 }
 
+TEST_F(MeshBake, ColoursOfVerticesAreSeen) {
+    scene::Scene scene = scene::build_builtin_scene("plane");
+    scene.materials[0].base_colour = {0.8F, 0.8F, 0.8F};
+    // Two corners are red, two are blue: half of each in the middle.
+    scene.meshes[0].colours.assign(scene.meshes[0].positions.size(), {1, 0.5F, 0});
+    for (std::size_t i = 0; i < scene.meshes[0].positions.size(); ++i) {
+        if (scene.meshes[0].positions[i].x > 0) {
+            scene.meshes[0].colours[i] = {0, 0.5F, 1};
+        }
+    }
+    const BakeParameters parameters = parameters_of_mesh();
+    const auto transport = baked(scene, parameters, "plane.relume");
+    const DenseImage seen = relight(*transport, sky_of(8, 0));
+    const auto colour = [&](std::uint32_t x) {
+        const std::size_t pixel = std::size_t{seen.height} / 2 * seen.width + x;
+        return Imath::V3d(seen.rgb[0][pixel], seen.rgb[1][pixel], seen.rgb[2][pixel]);
+    };
+    EXPECT_GT(colour(0).x, 1.5 * colour(0).z);
+    EXPECT_GT(colour(seen.width - 1).z, 1.5 * colour(seen.width - 1).x);
+    for (const std::uint32_t x : {0U, seen.width / 2, seen.width - 1}) {
+        EXPECT_NEAR(colour(x).y, 0.4, 0.01);
+        EXPECT_NEAR(colour(x).x + colour(x).z, 0.8, 0.04);
+    }
+}
+
 // The same scene baked for its one camera shows the same. Colours bleed from wall to wall in
 // it.
 TEST_F(MeshBake, TheSceneOwnCameraSeesWhatAnImageBakeShows) {

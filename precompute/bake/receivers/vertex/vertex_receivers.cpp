@@ -18,6 +18,18 @@ SequencePlace sequence_place(std::uint32_t run) {
     return {.run = run, .along = 0.7548776662466927 * run, .across = 0.5698402909980532 * run};
 }
 
+// The scene's vertex colours at a place; white where its mesh has none.
+Imath::V3f colour_at(const scene::Scene& scene, const SurfacePlace& place) {
+    const scene::Mesh& mesh = scene.meshes[place.mesh];
+    if (mesh.colours.empty()) {
+        return {1, 1, 1};
+    }
+    const scene::Triangle& corners = mesh.triangles[place.triangle];
+    const Imath::V2f& at = place.barycentric;
+    return mesh.colours[corners[0]] * (1 - at.x - at.y) + mesh.colours[corners[1]] * at.x +
+           mesh.colours[corners[2]] * at.y;
+}
+
 float mean_edge(const RefinedSurface& surface, std::size_t vertex) {
     const std::span<const VertexNeighbour> neighbours = surface.neighbours_of(vertex);
     float sum = 0;
@@ -80,6 +92,7 @@ Receiver VertexReceivers::receiver(std::size_t vertex, std::uint32_t run) const 
         surface.origins[i] = offset_origin(surface_point_at(scene_, places[i]));
     }
     surface.brdf = brdfs_[surface.material];
+    surface.colour = colour_at(scene_, places.front());
     return {.index = vertex, .place = sequence_place(run), .surfaces = {std::move(surface)}};
 }
 
