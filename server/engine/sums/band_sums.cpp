@@ -1,6 +1,7 @@
 #include "server/engine/sums/band_sums.h"
 
 #include "server/engine/kernels/vector_loops.h"
+#include "server/engine/sums/band_mask.h"
 
 #include <boost/container/small_vector.hpp>
 #include <tbb/parallel_for.h>
@@ -17,21 +18,6 @@ namespace {
 using transport::kColours;
 
 constexpr std::size_t kSumsPerBlock = ReceiverSums::kSumsPerBlock;
-
-template <typename Visit>
-void for_each_bit(std::uint64_t bits, const Visit& visit) {
-    for (; bits != 0; bits &= bits - 1) {
-        visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
-    }
-}
-
-constexpr std::uint32_t band_bit(std::uint32_t band) {
-    return std::uint32_t{1} << band;
-}
-
-constexpr bool has_band(std::uint32_t bands, std::uint32_t band) {
-    return (bands & band_bit(band)) != 0;
-}
 
 }  // namespace
 
