@@ -1,6 +1,6 @@
-#include "protocol/transport/checksum.h"
 #include "protocol/transport/error.h"
 #include "protocol/transport/manifest.h"
+#include "tests/unit/transport/changed_manifest.h"
 
 #include <gtest/gtest.h>
 
@@ -45,14 +45,8 @@ Manifest sample() {
     return manifest;
 }
 
-// The manifest's text after a change to its JSON, with the checksum made right again.
 std::string changed(const std::function<void(nlohmann::json&)>& change) {
-    nlohmann::json object = nlohmann::json::parse(text_from_manifest(sample()));
-    object.erase("xxh3");
-    change(object);
-    const std::string body = object.dump().substr(1);
-    return "{\"xxh3\":\"" + text_from_checksum(checksum(std::as_bytes(std::span(body)))) +
-           "\",\n" + body;
+    return changed_text(sample(), change);
 }
 
 TEST(MeshManifest, ComesBackFromItsText) {
