@@ -2,10 +2,10 @@
 // nothing of rooms. What relume-bake relight makes of it is what relume-server must show.
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/program.h"
+#include "protocol/light/environment_import.h"
+#include "protocol/light/light_rig.h"
 #include "protocol/wire/json_text.h"
 #include "protocol/wire/room_state.h"
-#include "server/light/environment_import.h"
-#include "server/light/light_rig.h"
 
 #include <CLI/CLI.hpp>
 #include <OpenImageIO/imageio.h>

@@ -1,6 +1,6 @@
 #include "tests/bench/light_drag.h"
 
-#include "server/light/procedural_environment.h"
+#include "protocol/light/procedural_environment.h"
 
 #include <algorithm>
 #include <numbers>

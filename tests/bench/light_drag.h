@@ -2,9 +2,9 @@
 // the next.
 #pragma once
 
+#include "protocol/light/light_rig.h"
 #include "server/engine/columns/column_change.h"
 #include "server/scene/scene.h"
-#include "server/light/light_rig.h"
 
 #include <cstddef>
 #include <cstdint>

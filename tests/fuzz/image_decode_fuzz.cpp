@@ -4,8 +4,8 @@
 // The first byte chooses whether a projection is asked for. OpenEXR itself
 // comes uninstrumented from the distribution: in it this finds what crashes, not what reads
 // amiss.
-#include "server/light/environment_error.h"
-#include "server/light/environment_import.h"
+#include "protocol/light/environment_error.h"
+#include "protocol/light/environment_import.h"
 
 #include <OpenEXR/ImfThreading.h>
 

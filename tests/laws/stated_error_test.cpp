@@ -1,6 +1,6 @@
 // Every image states its error: within 20 % of the true one for 95 % of images over all test
 // sequences, and never off by 1.5×.
-#include "server/light/procedural_environment.h"
+#include "protocol/light/procedural_environment.h"
 #include "tests/lab/measures/experiment.h"
 
 #include <gtest/gtest.h>

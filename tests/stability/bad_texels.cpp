@@ -1,7 +1,7 @@
 // Environment files as they are found: negatives in Debian's CC0 maps, and files made to hold
 // whatever a float can.
-#include "server/light/environment_error.h"
-#include "server/light/environment_import.h"
+#include "protocol/light/environment_error.h"
+#include "protocol/light/environment_import.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
 #include "tests/unit/light/image_files.h"

@@ -1,7 +1,7 @@
 // A white plane under the open sky, of which the image under a distant light is known.
 #pragma once
 
-#include "server/light/area_light.h"
+#include "protocol/light/area_light.h"
 #include "tests/stability/relit_image.h"
 #include "tests/stability/workbench.h"
 

@@ -1,7 +1,7 @@
 // What a method of the lab makes of one light after the other.
 #pragma once
 
-#include "server/light/light_cubemap.h"
+#include "protocol/light/light_cubemap.h"
 #include "tests/lab/methods/method.h"
 #include "tests/stability/relit_image.h"
 

@@ -1,6 +1,6 @@
 // The sky is turned ten thousand times and back to where it was.
-#include "server/light/procedural_environment.h"
-#include "server/light/rotation_resample.h"
+#include "protocol/light/procedural_environment.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
 
@@ -113,7 +113,8 @@ Outcome provoke(Workbench& workbench) {
          "bit for bit: an exact image is a function of the lighting"},
         {"largest change of ∫L dω over 10⁴ rotations, relative", Sense::at_most, 0.02,
          energy_change,
-         "1.5 % is the kernel's worst for a bare sun (server/light); twice may meet: the first "
+         "1.5 % is the kernel's worst for a bare sun (protocol/light); twice may meet: the "
+         "first "
          "may be off as well, each within 1 % as tested"},
     };
     const float exposure = 1.5F;

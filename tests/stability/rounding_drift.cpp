@@ -1,8 +1,8 @@
 // A light of 10⁵ goes on and off while the sky turns, edit upon edit, and nothing ever rests.
+#include "protocol/light/procedural_environment.h"
 #include "protocol/relighting/budget.h"
 #include "protocol/relighting/strategy.h"
 #include "server/engine/sums/band_sums.h"
-#include "server/light/procedural_environment.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
 #include "tests/support/dark_tenth_error.h"

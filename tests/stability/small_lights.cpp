@@ -1,5 +1,5 @@
 // Lights far smaller than a texel, anywhere in it.
-#include "server/light/rotation_resample.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/stability/open_plane.h"
 #include "tests/stability/provocations.h"
 #include "tests/stability/test_light.h"
@@ -96,7 +96,7 @@ Outcome provoke(Workbench& workbench) {
     outcome.findings.push_back(
         {"a sun of one map texel, turned: energy off, relative", Sense::at_most, 0.02,
          sun_energy_change(n, 2 * places, random),
-         "the kernel's worst is 1.5 % (server/light); 2 % is what its tests hold it to"});
+         "the kernel's worst is 1.5 % (protocol/light); 2 % is what its tests hold it to"});
     const light::AreaLight sun{.direction = {0.31F, 1, 0.17F},
                                .angular_radius_radians = radians_from_degrees(0.27F),
                                .radiance = Imath::V3f(1e5F)};

@@ -1,7 +1,7 @@
 // Lights that provoke: one bright disc over a dim sky.
 #pragma once
 
-#include "server/light/light_rig.h"
+#include "protocol/light/light_rig.h"
 #include "tests/stability/relit_image.h"
 
 #include <Imath/ImathVec.h>

@@ -1,7 +1,7 @@
 #include "server/net/http/decoder_check.h"
 
-#include "server/light/environment_error.h"
-#include "server/light/sandboxed_decoder.h"
+#include "protocol/light/environment_error.h"
+#include "server/decoder/sandboxed_decoder.h"
 
 #include <fmt/format.h>
 
@@ -21,10 +21,11 @@ constexpr std::string_view kImage =
 }  // namespace
 
 void check_decoder(const std::filesystem::path& decoder) {
-    light::DecodeLimits limits;
+    decoder::DecodeLimits limits;
     limits.program = decoder;
     try {
-        static_cast<void>(light::decode_in_child(std::as_bytes(std::span(kImage)), {}, limits));
+        static_cast<void>(
+            decoder::decode_in_child(std::as_bytes(std::span(kImage)), {}, limits));
     } catch (const light::EnvironmentError& failure) {
         throw std::runtime_error(fmt::format(
             "--decoder: {}: {}",

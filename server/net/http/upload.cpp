@@ -1,7 +1,7 @@
 #include "server/net/http/upload.h"
 
 #include "protocol/base/text/names.h"
-#include "server/light/environment_error.h"
+#include "protocol/light/environment_error.h"
 #include "server/net/http/query_rules.h"
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ constexpr std::uint64_t kDecoderBytes = std::uint64_t{256} << 20;
 
 }  // namespace
 
-light::DecodeLimits Uploads::decode_limits(std::stop_token stop) const {
-    light::DecodeLimits limits;
+decoder::DecodeLimits Uploads::decode_limits(std::stop_token stop) const {
+    decoder::DecodeLimits limits;
     limits.max_file_bytes = options_.file_bytes;
     limits.max_texels = std::min(options_.texels, options_.memory_bytes / kBytesPerTexel);
     limits.address_space_bytes = kDecoderBytes + options_.file_bytes + options_.memory_bytes;
@@ -128,7 +128,7 @@ HttpReply Uploads::finish(const Upload& upload,
     const std::stop_callback with_server(stop_.get_token(), end);
     try {
         light::ImportedEnvironment imported =
-            light::decode_in_child(body, upload.options, decode_limits(either.get_token()));
+            decoder::decode_in_child(body, upload.options, decode_limits(either.get_token()));
         const nlohmann::json answer{{"name", upload.name},
                                     {"width", imported.map.width()},
                                     {"height", imported.map.height()},

@@ -1,8 +1,8 @@
 // Environments that clients send.
 #pragma once
 
-#include "server/light/environment_import.h"
-#include "server/light/sandboxed_decoder.h"
+#include "protocol/light/environment_import.h"
+#include "server/decoder/sandboxed_decoder.h"
 #include "server/net/http/access.h"
 #include "server/net/http/http_message.h"
 #include "server/net/library/environment_library.h"
@@ -59,7 +59,7 @@ class Uploads {
     void stop() { stop_.request_stop(); }
 
   private:
-    [[nodiscard]] light::DecodeLimits decode_limits(std::stop_token stop) const;
+    [[nodiscard]] decoder::DecodeLimits decode_limits(std::stop_token stop) const;
 
     EnvironmentLibrary& library_;
     const Access& access_;

@@ -1,6 +1,6 @@
 #include "server/net/images/frame_composer.h"
 
-#include "server/light/background.h"
+#include "protocol/light/background.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

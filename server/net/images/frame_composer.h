@@ -1,9 +1,9 @@
 // The whole picture: the relit image over what lies behind the scene.
 #pragma once
 
+#include "protocol/light/light_rig.h"
 #include "protocol/wire/half_image.h"
 #include "protocol/wire/room_state.h"
-#include "server/light/light_rig.h"
 #include "server/net/images/display_table.h"
 #include "server/net/images/sky_pixels.h"
 #include "server/view/view.h"

@@ -1,7 +1,7 @@
 // The pixels of a view through which the environment is seen directly.
 #pragma once
 
-#include "server/light/lat_long_kernel.h"
+#include "protocol/light/lat_long_kernel.h"
 #include "server/view/view.h"
 
 #include <Imath/ImathVec.h>

@@ -1,6 +1,6 @@
 #include "server/net/library/environment.h"
 
-#include "server/light/preview.h"
+#include "protocol/light/preview.h"
 #include "server/net/images/jpeg_encoder.h"
 
 #include <utility>

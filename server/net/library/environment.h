@@ -1,9 +1,9 @@
 // One named environment: decoded and prefiltered when it is first used.
 #pragma once
 
-#include "server/light/environment_error.h"
-#include "server/light/environment_map.h"
-#include "server/light/prefiltered_environment.h"
+#include "protocol/light/environment_error.h"
+#include "protocol/light/environment_map.h"
+#include "protocol/light/prefiltered_environment.h"
 #include "server/net/library/resident_cache.h"
 
 #include <cstdint>

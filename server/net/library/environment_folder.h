@@ -1,7 +1,7 @@
 // The operator's folder of maps, followed into the library of environments.
 #pragma once
 
-#include "server/light/environment_import.h"
+#include "protocol/light/environment_import.h"
 #include "server/net/library/environment_library.h"
 #include "server/net/library/followed_folder.h"
 

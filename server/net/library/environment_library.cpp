@@ -1,7 +1,7 @@
 #include "server/net/library/environment_library.h"
 
+#include "protocol/light/procedural_environment.h"
 #include "protocol/wire/errors.h"
-#include "server/light/procedural_environment.h"
 
 #include <fmt/format.h>
 

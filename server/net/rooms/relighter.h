@@ -2,11 +2,11 @@
 // After an edit only the stages that it touches run again, and those that follow from them.
 #pragma once
 
+#include "protocol/light/light_cubemap.h"
+#include "protocol/light/light_rig.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
 #include "server/engine/session.h"
-#include "server/light/light_cubemap.h"
-#include "server/light/light_rig.h"
 #include "server/net/base/clock.h"
 #include "server/net/base/metrics.h"
 #include "server/net/images/display_tables.h"

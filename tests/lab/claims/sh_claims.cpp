@@ -1,5 +1,5 @@
 // Wavelets against spherical harmonics.
-#include "server/light/light_rig.h"
+#include "protocol/light/light_rig.h"
 #include "tests/lab/claims/claim.h"
 #include "tests/lab/sequences/environment_source.h"
 

@@ -1,11 +1,11 @@
 // From an edit of light and camera to JPEG as a room of the server does it, without the room.
 #pragma once
 
+#include "protocol/light/light_cubemap.h"
+#include "protocol/light/light_rig.h"
 #include "protocol/relighting/budget.h"
 #include "protocol/relighting/strategy.h"
 #include "server/engine/session.h"
-#include "server/light/light_cubemap.h"
-#include "server/light/light_rig.h"
 #include "server/net/images/display_table.h"
 #include "server/net/images/frame_composer.h"
 #include "server/net/images/jpeg_encoder.h"

@@ -1,7 +1,7 @@
 #include "tests/lab/measures/light_filter.h"
 
 #include "protocol/basis/cubemap.h"
-#include "server/light/rotation_resample.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/lab/measures/turned_map.h"
 #include "tests/support/reference_tracer/tracer.h"
 

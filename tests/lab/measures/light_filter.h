@@ -2,7 +2,7 @@
 #pragma once
 
 #include "precompute/scene/scene.h"
-#include "server/light/prefiltered_environment.h"
+#include "protocol/light/prefiltered_environment.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace relume::lab {
 
-// A light of n² texels a face, of a map: made ready and turned by server/light, or, without an
-// environment, the mean radiance of every texel, which is what n alone costs.
+// A light of n² texels a face, of a map: made ready and turned by protocol/light, or, without
+// an environment, the mean radiance of every texel, which is what n alone costs.
 struct TexelLightSource {
     std::uint32_t n = 0;
     std::shared_ptr<const light::PrefilteredEnvironment> environment;

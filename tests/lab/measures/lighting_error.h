@@ -1,7 +1,7 @@
 // How far the light shown is from the light asked for.
 #pragma once
 
-#include "server/light/light_cubemap.h"
+#include "protocol/light/light_cubemap.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,8 +4,8 @@
 #include "precompute/bake/blocks/light_model.h"
 #include "precompute/bake/relight.h"
 #include "protocol/basis/haar.h"
+#include "protocol/light/rotation_resample.h"
 #include "protocol/transport/transport.h"
-#include "server/light/rotation_resample.h"
 #include "tests/lab/sequences/environment_source.h"
 
 #include <Imath/ImathQuat.h>

@@ -1,7 +1,7 @@
 // A map as it stands after a turn: at full resolution, and as the means of texels.
 #pragma once
 
-#include "server/light/environment_map.h"
+#include "protocol/light/environment_map.h"
 
 #include <Imath/ImathQuat.h>
 #include <Imath/ImathVec.h>

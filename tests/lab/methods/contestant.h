@@ -1,7 +1,7 @@
 // A method at work: it is given one light after another and makes one image of each.
 #pragma once
 
-#include "server/light/light_cubemap.h"
+#include "protocol/light/light_cubemap.h"
 
 #include <cstdint>
 #include <span>

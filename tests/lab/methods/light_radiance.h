@@ -2,7 +2,7 @@
 #pragma once
 
 #include "protocol/basis/cubemap_projection.h"
-#include "server/light/light_cubemap.h"
+#include "protocol/light/light_cubemap.h"
 
 #include <span>
 

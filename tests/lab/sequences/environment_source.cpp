@@ -1,8 +1,8 @@
 #include "tests/lab/sequences/environment_source.h"
 
 #include "protocol/basis/cubemap.h"
-#include "server/light/environment_import.h"
-#include "server/light/procedural_environment.h"
+#include "protocol/light/environment_import.h"
+#include "protocol/light/procedural_environment.h"
 
 #include <algorithm>
 #include <cmath>

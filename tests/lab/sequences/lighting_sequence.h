@@ -1,7 +1,7 @@
 // What the light does, image by image, as a file says it (README.md of this folder).
 #pragma once
 
-#include "server/light/light_rig.h"
+#include "protocol/light/light_rig.h"
 #include "tests/lab/sequences/curve.h"
 
 #include <nlohmann/json_fwd.hpp>

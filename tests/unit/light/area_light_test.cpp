@@ -1,4 +1,4 @@
-#include "server/light/area_light.h"
+#include "protocol/light/area_light.h"
 
 #include "protocol/basis/cubemap.h"
 #include "tests/unit/light/synthetic_maps.h"

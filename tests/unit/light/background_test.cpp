@@ -1,4 +1,4 @@
-#include "server/light/background.h"
+#include "protocol/light/background.h"
 
 #include "tests/unit/light/synthetic_maps.h"
 

@@ -1,7 +1,7 @@
 // tests/cases/environments: variants of one picture by many writers. Each holds what its
 // reference file holds, by the rule that the variant breaks.
-#include "server/light/environment_error.h"
-#include "server/light/environment_import.h"
+#include "protocol/light/environment_error.h"
+#include "protocol/light/environment_import.h"
 
 #include <OpenEXR/ImfRgbaFile.h>
 #include <gtest/gtest.h>

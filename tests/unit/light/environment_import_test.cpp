@@ -1,6 +1,6 @@
-#include "server/light/environment_import.h"
+#include "protocol/light/environment_import.h"
 
-#include "server/light/environment_error.h"
+#include "protocol/light/environment_error.h"
 #include "tests/unit/light/image_files.h"
 #include "tests/unit/light/synthetic_maps.h"
 

@@ -1,6 +1,6 @@
-#include "server/light/environment_map.h"
+#include "protocol/light/environment_map.h"
 
-#include "server/light/environment_error.h"
+#include "protocol/light/environment_error.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Which layer is taken for the picture, by what renderers call theirs.
-#include "server/light/exr_layers.h"
+#include "protocol/light/exr_layers.h"
 
-#include "server/light/environment_error.h"
+#include "protocol/light/environment_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Image files made in memory.
 #pragma once
 
-#include "server/light/environment_map.h"
+#include "protocol/light/environment_map.h"
 
 #include <OpenImageIO/imageio.h>
 

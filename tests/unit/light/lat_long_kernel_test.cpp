@@ -1,6 +1,6 @@
-#include "server/light/lat_long_kernel.h"
+#include "protocol/light/lat_long_kernel.h"
 
-#include "server/light/map_geometry.h"
+#include "protocol/light/map_geometry.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <gtest/gtest.h>

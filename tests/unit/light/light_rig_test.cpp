@@ -1,8 +1,8 @@
-#include "server/light/light_rig.h"
+#include "protocol/light/light_rig.h"
 
 #include "protocol/basis/cubemap_projection.h"
-#include "server/light/background.h"
-#include "server/light/rotation_resample.h"
+#include "protocol/light/background.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <gtest/gtest.h>

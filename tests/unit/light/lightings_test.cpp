@@ -1,7 +1,7 @@
 // The shared cases of what a state lights with: protocol/wire/vectors.
+#include "protocol/light/disc_coverage.h"
+#include "protocol/light/light_rig.h"
 #include "protocol/wire/room_state.h"
-#include "server/light/disc_coverage.h"
-#include "server/light/light_rig.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Maps whose centre looks elsewhere: where Blender and three.js see a place of a picture.
-#include "server/light/map_centre.h"
+#include "protocol/light/map_centre.h"
 
-#include "server/light/rotation_resample.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#include "server/light/procedural_environment.h"
+#include "protocol/light/procedural_environment.h"
 
-#include "server/light/environment_error.h"
-#include "server/light/preview.h"
+#include "protocol/light/environment_error.h"
+#include "protocol/light/preview.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "server/light/projection.h"
+#include "protocol/light/projection.h"
 
 #include <gtest/gtest.h>
 

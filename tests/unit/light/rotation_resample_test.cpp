@@ -1,4 +1,4 @@
-#include "server/light/rotation_resample.h"
+#include "protocol/light/rotation_resample.h"
 
 #include "protocol/basis/cubemap.h"
 #include "tests/unit/light/synthetic_maps.h"

@@ -1,5 +1,5 @@
 // What is given back of a blur.
-#include "server/light/sharpening.h"
+#include "protocol/light/sharpening.h"
 
 #include "protocol/basis/cubemap.h"
 

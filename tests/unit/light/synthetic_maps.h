@@ -1,7 +1,7 @@
 // Environments made from a function of direction, in every projection.
 #pragma once
 
-#include "server/light/environment_map.h"
+#include "protocol/light/environment_map.h"
 
 #include <Imath/ImathQuat.h>
 #include <Imath/ImathVec.h>
@@ -17,7 +17,7 @@ namespace relume::light::testing {
 using Radiance = std::function<Imath::V3f(const Imath::V3f&)>;
 
 // Direction of a place in an image, x and y in [0, 1] from the top left; written from
-// protocol/README.md §1 without use of server/light. Nothing where a map is blank.
+// protocol/README.md §1 without use of protocol/light. Nothing where a map is blank.
 std::optional<Imath::V3f> direction_at(
     Projection projection, std::uint32_t width, std::uint32_t height, double x, double y);
 

@@ -1,7 +1,7 @@
 // Maps of few texels: whatever shape is taken must give light that is finite, and a constant
 // one the same light everywhere.
-#include "server/light/background.h"
-#include "server/light/rotation_resample.h"
+#include "protocol/light/background.h"
+#include "protocol/light/rotation_resample.h"
 #include "tests/unit/light/synthetic_maps.h"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // Maps that come, change and go while the server runs.
 #include "server/net/library/environment_folder.h"
 
-#include "server/light/environment_error.h"
+#include "protocol/light/environment_error.h"
 #include "tests/unit/net/hdr_file.h"
 #include "tests/unit/net/room_fixture.h"
 

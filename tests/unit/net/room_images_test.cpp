@@ -1,7 +1,7 @@
 // Which images a room makes, and what they show.
+#include "protocol/light/light_cubemap.h"
+#include "protocol/light/light_rig.h"
 #include "protocol/wire/half_image.h"
-#include "server/light/light_cubemap.h"
-#include "server/light/light_rig.h"
 #include "tests/unit/net/room_fixture.h"
 #include "tests/unit/net/waiting.h"
 
