@@ -116,6 +116,17 @@ std::string string_from_json(const json& value, const std::string& path) {
     return value.get<std::string>();
 }
 
+std::vector<std::string> strings_from_json(const json& value, const std::string& path) {
+    if (!value.is_array()) {
+        throw WireError(ErrorCode::wrong_type, path, quote(value), "an array of strings");
+    }
+    std::vector<std::string> strings;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        strings.push_back(string_from_json(value[i], pointer_step(path, std::to_string(i))));
+    }
+    return strings;
+}
+
 std::string name_from_json(const json& value, const std::string& path) {
     return ruled_string_from_json(value, path, text::is_name,
                                   "a name: " + std::string(text::kNameRule));

@@ -32,6 +32,8 @@ namespace relume::wire {
 [[nodiscard]] bool flag_from_json(const nlohmann::json& value, const std::string& path);
 [[nodiscard]] std::string string_from_json(const nlohmann::json& value,
                                            const std::string& path);
+[[nodiscard]] std::vector<std::string> strings_from_json(const nlohmann::json& value,
+                                                         const std::string& path);
 // Strings that names.h allows as names and as labels.
 [[nodiscard]] std::string name_from_json(const nlohmann::json& value, const std::string& path);
 [[nodiscard]] std::string label_from_json(const nlohmann::json& value, const std::string& path);

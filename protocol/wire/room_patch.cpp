@@ -78,10 +78,9 @@ void require_kept(const RoomState& before,
         const std::string key(fields_of(section).key);
         if (after.*member != before.*member &&
             std::find(edits.begin(), edits.end(), key) == edits.end()) {
-            throw WireError(ErrorCode::unsupported, "/" + key,
-                            quote(to_json(section, after.*member)),
-                            quote(to_json(section, before.*member)) +
-                                ", which rooms of this scene keep");
+            throw WireError(
+                ErrorCode::unsupported, "/" + key, quote(to_json(section, after.*member)),
+                quote(to_json(section, before.*member)) + ", which rooms of this scene keep");
         }
     });
 }

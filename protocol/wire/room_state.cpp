@@ -18,6 +18,7 @@ RoomState room_state_from_json(const nlohmann::json& object) {
     RoomState state;
     Limits limits;
     limits.lights_per_room = kMaxInteger;  // the server that sent it enforces its own
+    limits.materials_per_room = kMaxInteger;
     static_cast<void>(apply_patch(state, object, limits));
     return state;
 }

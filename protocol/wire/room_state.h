@@ -13,6 +13,7 @@
 #include "protocol/wire/sections/display.h"
 #include "protocol/wire/sections/environment.h"
 #include "protocol/wire/sections/image_size.h"
+#include "protocol/wire/sections/materials.h"
 #include "protocol/wire/sections/rotation.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -25,6 +26,7 @@ struct RoomState {
     Blend blend;
     Rotation rotation;
     AreaLights lights;
+    MaterialEdits materials;
     Background background;
     Camera camera;
     ImageSize image;

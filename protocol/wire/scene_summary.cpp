@@ -84,6 +84,9 @@ json to_json(const SceneSummary& scene) {
     if (scene.bounds) {
         object["bounds"] = to_json(*scene.bounds);
     }
+    for (const EditableMaterial& material : scene.materials) {
+        object["materials"].push_back(to_json(material));
+    }
     return object;
 }
 
@@ -97,6 +100,7 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
                        .bake_error = {},
                        .camera = {},
                        .bounds = {},
+                       .materials = {},
                        .edits = {}};
     read_text(reader, "kind", scene.kind);
     read_text(reader, "basis", scene.basis);
@@ -117,13 +121,16 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
         scene.bounds = bounds_from_json(*bounds, reader.path_to("bounds"));
     }
     if (const json* edits = reader.find("edits")) {
-        if (!edits->is_array()) {
-            throw WireError(ErrorCode::wrong_type, reader.path_to("edits"), quote(*edits),
-                            "an array of names");
+        scene.edits = strings_from_json(*edits, reader.path_to("edits"));
+    }
+    if (const json* materials = reader.find("materials")) {
+        if (!materials->is_array()) {
+            throw WireError(ErrorCode::wrong_type, reader.path_to("materials"),
+                            quote(*materials), "an array of materials");
         }
-        for (std::size_t i = 0; i < edits->size(); ++i) {
-            scene.edits.push_back(string_from_json(
-                (*edits)[i], reader.path_to("edits") + "/" + std::to_string(i)));
+        for (std::size_t i = 0; i < materials->size(); ++i) {
+            scene.materials.push_back(editable_material_from_json(
+                (*materials)[i], pointer_step(reader.path_to("materials"), std::to_string(i))));
         }
     }
     return scene;

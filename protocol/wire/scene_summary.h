@@ -1,6 +1,7 @@
 // What a scene is and what may be edited in its rooms: `/api/scenes` and the snapshot say it.
 #pragma once
 
+#include "protocol/wire/editable_material.h"
 #include "protocol/wire/sections/camera.h"
 
 #include <Imath/ImathVec.h>
@@ -37,6 +38,7 @@ struct SceneSummary {
         std::nullopt;                             // relative L2 that the bake's sampling leaves
     std::optional<Camera> camera = std::nullopt;  // where its rooms begin
     std::optional<SceneBounds> bounds = std::nullopt;  // where the camera can move
+    std::vector<EditableMaterial> materials = {};      // of kind `curves`
     std::vector<std::string> edits = {};               // the sections of state that take edits
 
     friend bool operator==(const SceneSummary&, const SceneSummary&) = default;

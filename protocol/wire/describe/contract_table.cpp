@@ -45,6 +45,14 @@ std::string kind_text(const FieldRule& rule) {
             }
             return fmt::format("{}", fmt::join(words, ", "));
         }
+        case FieldKind::table: {
+            const TableRule& table = rule.table;
+            return fmt::format("an array of {} arrays of {} numbers {}",
+                               table.least_rows == table.most_rows
+                                   ? std::to_string(table.least_rows)
+                                   : fmt::format("{} to {}", table.least_rows, table.most_rows),
+                               table.columns, range_text(rule.range));
+        }
     }
     return {};
 }

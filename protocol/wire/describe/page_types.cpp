@@ -72,6 +72,8 @@ std::string type_of_field(const SectionFacts& section, const FieldRule& rule) {
             return "string";
         case FieldKind::word:
             return type_of_words(section, rule);
+        case FieldKind::table:
+            return "number[][]";
     }
     return {};
 }

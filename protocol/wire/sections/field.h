@@ -19,6 +19,7 @@
 #include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace relume::wire {
 
@@ -31,7 +32,8 @@ enum class FieldKind : std::uint8_t {
     quaternion,  // w, x, y, z, not all zero; normalised
     name,        // as names.h allows
     label,       // as names.h allows
-    word         // one of some
+    word,        // one of some
+    table        // rows of as many numbers each, in the range
 };
 
 // When a state has the field.
@@ -41,20 +43,44 @@ enum class Presence : std::uint8_t {
     one_of  // exactly one of the section's fields marked so; setting one takes the others away
 };
 
+// The shape of a table.
+struct TableRule {
+    std::uint32_t least_rows = 0;
+    std::uint32_t most_rows = 0;
+    std::uint32_t columns = 0;
+};
+
+// Row by row.
+struct NumberTable {
+    std::uint32_t columns = 0;
+    std::vector<double> numbers;
+
+    [[nodiscard]] std::size_t rows() const { return numbers.size() / columns; }
+
+    friend bool operator==(const NumberTable&, const NumberTable&) = default;
+};
+
 struct FieldRule {
     std::string_view key;
     FieldKind kind;
     std::string_view meaning;  // a line for people, with no full stop at its end
-    Range range{};             // of number, integer and triple
+    Range range{};             // of number, integer, triple and table
     std::span<const std::string_view> words{};
     Presence presence = Presence::always;
     bool is_needed = false;  // a new entry of a keyed section has to state it
+    TableRule table{};
 };
 
 // Nothing, or the one alternative that the field's kind says: double, uint32, bool, V3d (triple
-// and direction), Quatd, string (name, label, word).
-using FieldValue = std::
-    variant<std::monostate, bool, double, std::uint32_t, Imath::V3d, Imath::Quatd, std::string>;
+// and direction), Quatd, string (name, label, word), NumberTable.
+using FieldValue = std::variant<std::monostate,
+                                bool,
+                                double,
+                                std::uint32_t,
+                                Imath::V3d,
+                                Imath::Quatd,
+                                std::string,
+                                NumberTable>;
 
 template <typename Owner>
 struct Field {
@@ -150,6 +176,15 @@ constexpr auto name(std::string_view key, std::string_view meaning) {
     return of<kMember>({key, FieldKind::name, meaning});
 }
 template <auto kMember>
+constexpr auto table(std::string_view key,
+                     TableRule table,
+                     Range range,
+                     std::string_view meaning) {
+    FieldRule rule{key, FieldKind::table, meaning, range};
+    rule.table = table;
+    return of<kMember>(rule);
+}
+template <auto kMember>
 constexpr auto label(std::string_view key, std::string_view meaning) {
     return of<kMember>({key, FieldKind::label, meaning});
 }
@@ -162,12 +197,26 @@ constexpr Field<OwnerOf<kMember>> word(std::string_view key, std::string_view me
     using Owner = OwnerOf<kMember>;
     FieldRule rule{key, FieldKind::word, meaning};
     rule.words = kWords<kNames>;
-    return {
-        rule,
-        [](const Owner& owner) { return FieldValue(std::string(kNames.name(owner.*kMember))); },
-        [](Owner& owner, const FieldValue& value) {
-            owner.*kMember = kNames.value(std::get<std::string>(value)).value();
-        }};
+    if constexpr (kIsOptional<TypeOf<kMember>>) {
+        rule.presence = Presence::optional;
+        return {rule,
+                [](const Owner& owner) {
+                    const auto& word = owner.*kMember;
+                    return word ? FieldValue(std::string(kNames.name(*word))) : FieldValue();
+                },
+                [](Owner& owner, const FieldValue& value) {
+                    const auto* const word = std::get_if<std::string>(&value);
+                    owner.*kMember = word != nullptr ? kNames.value(*word) : std::nullopt;
+                }};
+    } else {
+        return {rule,
+                [](const Owner& owner) {
+                    return FieldValue(std::string(kNames.name(owner.*kMember)));
+                },
+                [](Owner& owner, const FieldValue& value) {
+                    owner.*kMember = kNames.value(std::get<std::string>(value)).value();
+                }};
+    }
 }
 
 }  // namespace field

@@ -38,6 +38,38 @@ std::string word_from_json(const FieldRule& rule, const json& value, const std::
     return word;
 }
 
+json json_from_table(const NumberTable& table) {
+    json rows = json::array();
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const auto* const first = &table.numbers[row * table.columns];
+        rows.push_back(std::vector<double>(first, first + table.columns));
+    }
+    return rows;
+}
+
+NumberTable table_from_json(const FieldRule& rule, const json& value, const std::string& path) {
+    const TableRule& shape = rule.table;
+    if (!value.is_array()) {
+        throw WireError(ErrorCode::wrong_type, path, quote(value),
+                        "an array of arrays of numbers");
+    }
+    if (value.size() < shape.least_rows || value.size() > shape.most_rows) {
+        const std::string least = std::to_string(shape.least_rows);
+        throw WireError(
+            ErrorCode::out_of_range, path, "an array of " + std::to_string(value.size()),
+            shape.least_rows == shape.most_rows
+                ? "an array of " + least
+                : "an array of " + least + " to " + std::to_string(shape.most_rows));
+    }
+    NumberTable table{.columns = shape.columns, .numbers = {}};
+    for (std::size_t row = 0; row < value.size(); ++row) {
+        const std::vector<double> numbers = numbers_from_json(
+            value[row], pointer_step(path, std::to_string(row)), shape.columns, rule.range);
+        table.numbers.insert(table.numbers.end(), numbers.begin(), numbers.end());
+    }
+    return table;
+}
+
 }  // namespace
 
 json json_from_value(const FieldValue& value) {
@@ -50,6 +82,8 @@ json json_from_value(const FieldValue& value) {
                 return {plain.x, plain.y, plain.z};
             } else if constexpr (std::is_same_v<Type, Imath::Quatd>) {
                 return {plain.r, plain.v.x, plain.v.y, plain.v.z};
+            } else if constexpr (std::is_same_v<Type, NumberTable>) {
+                return json_from_table(plain);
             } else {
                 return plain;
             }
@@ -86,12 +120,15 @@ FieldValue value_from_json(const FieldRule& rule, const json& value, const std::
             return label_from_json(value, path);
         case FieldKind::word:
             return word_from_json(rule, value, path);
+        case FieldKind::table:
+            return table_from_json(rule, value, path);
     }
     return {};
 }
 
 json normal_form(const FieldRule& rule, const FieldValue& value, const json& stated) {
-    return rule.kind == FieldKind::triple ? stated : json_from_value(value);
+    const bool is_plain = rule.kind == FieldKind::triple || rule.kind == FieldKind::table;
+    return is_plain ? stated : json_from_value(value);
 }
 
 // Scales first: the squares of 1e300 have no double.

@@ -21,7 +21,7 @@ namespace relume::wire {
                                          const std::string& path);
 
 // The JSON by which a normalised patch states `value`, which was read from `stated`. Triples
-// stay as they were stated.
+// and tables stay as they were stated.
 [[nodiscard]] nlohmann::json normal_form(const FieldRule& rule,
                                          const FieldValue& value,
                                          const nlohmann::json& stated);

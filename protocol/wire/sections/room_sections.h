@@ -14,6 +14,7 @@ void for_each_section(Visit&& visit) {
     visit(kBlend, &RoomState::blend);
     visit(kRotation, &RoomState::rotation);
     visit(kAreaLights, &RoomState::lights);
+    visit(kMaterials, &RoomState::materials);
     visit(kBackground, &RoomState::background);
     visit(kCamera, &RoomState::camera);
     visit(kImageSize, &RoomState::image);

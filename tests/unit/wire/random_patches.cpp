@@ -56,6 +56,15 @@ json value_of(const FieldRule& rule) {
         case FieldKind::word:
             return *rc::gen::elementOf(
                 std::vector<std::string>(rule.words.begin(), rule.words.end()));
+        case FieldKind::table: {
+            json rows = json::array();
+            const auto count =
+                *rc::gen::inRange(rule.table.least_rows, rule.table.most_rows + 1);
+            for (std::uint32_t row = 0; row < count; ++row) {
+                rows.push_back(numbers(rule.table.columns, rule.range));
+            }
+            return rows;
+        }
     }
     return nullptr;
 }

@@ -16,6 +16,7 @@ export interface Range {
     highest: number;
 }
 
+export type MaterialsShape = "beckmann" | "ggx" | "cosine_power" | "conductor" | "dielectric" | "schlick" | "constant";
 export type BackgroundMode = "environment" | "colour" | "transparent";
 export type StrategyMethod = "nwa" | "bi" | "pbi" | "guarded";
 export type StrategyPriority = "area" | "none" | "transport" | "benefit";
@@ -65,6 +66,32 @@ export interface AreaLight {
     solo: boolean;
     /** Lists show lights in ascending order; a new light without one comes last. */
     order: number;
+}
+
+/** Edited materials, by their names in the scene. */
+export interface MaterialEdit {
+    /** Of the curve, r, g, b at u = k/255. */
+    samples: number[][];
+    /** U, r, g, b of the control points that the samples were made from. */
+    points?: number[][] | null;
+    /** That the samples were made from, with the parameters below. */
+    shape?: MaterialsShape | null;
+    /** Of shapes `beckmann` (root mean square slope) and `ggx` (α). */
+    roughness: number;
+    /** Of shape `cosine_power`. */
+    exponent: number;
+    /** Index of refraction, of shapes `conductor` and `dielectric`. */
+    n: Triple;
+    /** Extinction, of shape `conductor`. */
+    e: Triple;
+    /** Reflected straight on, of shape `schlick`. */
+    f0: Triple;
+    /** Of shape `constant`. */
+    level: number;
+    /** Times the curve, by colour. */
+    tint: Triple;
+    /** Times the diffuse reflection as baked, by colour. */
+    diffuse: Triple;
 }
 
 /** What shows behind the scene. */
@@ -126,6 +153,7 @@ export interface RoomState {
     blend: BlendState;
     rotation: RotationState;
     lights: { [id: string]: AreaLight };
+    materials: { [id: string]: MaterialEdit };
     background: BackgroundState;
     camera: CameraState;
     image: ImageState;
@@ -142,6 +170,7 @@ export const kStages: { readonly [section in keyof RoomState]: Stage } = {
     blend: "signal",
     rotation: "signal",
     lights: "signal",
+    materials: "signal",
     background: "view",
     camera: "view",
     image: "view",
@@ -154,6 +183,7 @@ export const kStages: { readonly [section in keyof RoomState]: Stage } = {
 export const kAbsent: { readonly [section in keyof RoomState]?: readonly string[] } = {
     blend: ["name"],
     lights: ["name"],
+    materials: ["points", "shape"],
     budget: ["milliseconds", "coefficients"],
 };
 
@@ -172,6 +202,18 @@ export const kRanges = {
         gain: { lowest: 0, highest: 1e6 },
         tint: { lowest: 0, highest: 1e4 },
         order: { lowest: -1e9, highest: 1e9 },
+    },
+    materials: {
+        samples: { lowest: 0, highest: 1e6 },
+        points: { lowest: 0, highest: 1e6 },
+        roughness: { lowest: 0.001, highest: 1 },
+        exponent: { lowest: 0, highest: 1e5 },
+        n: { lowest: 0.05, highest: 20 },
+        e: { lowest: 0, highest: 20 },
+        f0: { lowest: 0, highest: 1 },
+        level: { lowest: 0, highest: 1e6 },
+        tint: { lowest: 0, highest: 1e4 },
+        diffuse: { lowest: 0, highest: 1e4 },
     },
     background: {
         colour: { lowest: 0, highest: 1e4 },
