@@ -15,7 +15,7 @@ struct BuiltinScene {
     Scene (*build)();
 };
 
-// table, box, thin, mesh100k, plane, bowl.
+// table, box, thin, earrings, street, mesh100k, plane, bowl.
 [[nodiscard]] const std::vector<BuiltinScene>& builtin_scenes();
 // Throws SceneError (unknown_name), naming those that exist.
 [[nodiscard]] Scene build_builtin_scene(std::string_view name);

@@ -12,5 +12,6 @@ namespace relume::scene {
 [[nodiscard]] Scene build_mesh100k();
 [[nodiscard]] Scene build_plane();
 [[nodiscard]] Scene build_bowl();
+[[nodiscard]] Scene build_earrings();
 
 }  // namespace relume::scene

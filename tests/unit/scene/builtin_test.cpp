@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace relume::scene {
 namespace {
@@ -151,6 +154,40 @@ TEST(Builtin, StreetIsClosedAndFacesOutwards) {
         EXPECT_GT(volume, 0) << mesh.name;
     }
     EXPECT_EQ(models, (std::set{BsdfModel::lambert, BsdfModel::phong, BsdfModel::ggx}));
+}
+
+// The pearls lie on the cloth, and it lies on the pedestal: a pearl touches it without sinking
+// in by more than a third of a millimetre, and no point of it is below the pedestal's top within
+// its rim.
+TEST(Builtin, PearlsLieOnTheCloth) {
+    const Scene& scene = built("earrings");
+    std::map<std::string, const Mesh*> by_name;
+    for (const Mesh& mesh : scene.meshes)
+        by_name[mesh.name] = &mesh;
+    const Mesh& cloth = *by_name.at("cloth");
+    EXPECT_NEAR(static_cast<double>(cloth.triangles.size()), 20'000, 2'000);
+    for (const char* name : {"pearl", "post", "cloth"})
+        EXPECT_TRUE(std::any_of(scene.materials.begin(), scene.materials.end(),
+                                [&](const Material& material) { return material.name == name; }))
+            << name;
+    constexpr float kRadius = 0.0075F;
+    const std::vector<Imath::V3f>& pearls = by_name.at("pearls")->positions;
+    for (const std::size_t first : {std::size_t{0}, pearls.size() / 2}) {
+        // A pearl's first ring is its south pole, its last the north pole.
+        const Imath::V3f centre = pearls[first] + Imath::V3f(0, kRadius, 0);
+        float nearest = 1;
+        for (const Imath::V3f& point : cloth.positions)
+            nearest = std::min(nearest, (point - centre).length());
+        EXPECT_LE(nearest, kRadius);
+        EXPECT_GT(nearest, kRadius - 0.00035F);
+    }
+    float top = 0;
+    for (const Imath::V3f& point : by_name.at("pedestal")->positions)
+        top = std::max(top, point.y);
+    for (const Imath::V3f& point : cloth.positions) {
+        if (std::hypot(point.x, point.z) < 0.04F)
+            ASSERT_GT(point.y, top);
+    }
 }
 
 TEST(Builtin, BowlIsWhiteAndFlat) {
