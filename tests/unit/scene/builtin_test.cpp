@@ -157,8 +157,8 @@ TEST(Builtin, StreetIsClosedAndFacesOutwards) {
 }
 
 // The pearls lie on the cloth, and it lies on the pedestal: a pearl touches it without sinking
-// in by more than a third of a millimetre, and no point of it is below the pedestal's top within
-// its rim.
+// in by more than a third of a millimetre, and no point of it is below the pedestal's top
+// within its rim.
 TEST(Builtin, PearlsLieOnTheCloth) {
     const Scene& scene = built("earrings");
     std::map<std::string, const Mesh*> by_name;
@@ -167,8 +167,9 @@ TEST(Builtin, PearlsLieOnTheCloth) {
     const Mesh& cloth = *by_name.at("cloth");
     EXPECT_NEAR(static_cast<double>(cloth.triangles.size()), 20'000, 2'000);
     for (const char* name : {"pearl", "post", "cloth"})
-        EXPECT_TRUE(std::any_of(scene.materials.begin(), scene.materials.end(),
-                                [&](const Material& material) { return material.name == name; }))
+        EXPECT_TRUE(
+            std::any_of(scene.materials.begin(), scene.materials.end(),
+                        [&](const Material& material) { return material.name == name; }))
             << name;
     constexpr float kRadius = 0.0075F;
     const std::vector<Imath::V3f>& pearls = by_name.at("pearls")->positions;
@@ -185,8 +186,9 @@ TEST(Builtin, PearlsLieOnTheCloth) {
     for (const Imath::V3f& point : by_name.at("pedestal")->positions)
         top = std::max(top, point.y);
     for (const Imath::V3f& point : cloth.positions) {
-        if (std::hypot(point.x, point.z) < 0.04F)
+        if (std::hypot(point.x, point.z) < 0.04F) {
             ASSERT_GT(point.y, top);
+        }
     }
 }
 
