@@ -242,9 +242,14 @@ int run_relight(const Arguments& arguments) {
     }
     const auto transport = transport::Transport::open(existing_directory(arguments));
     const transport::Manifest& manifest = transport->manifest();
-    const DenseImage relit =
-        relight(*transport,
-                read_cubemap_strip(arguments.light, manifest.signal_basis.face_resolution()));
+    if (!manifest.signal_basis.is_of_light()) {
+        throw BakeError(
+            fmt::format("{}: is of kind curves, whose light is frozen, expected a "
+                        "transport of light",
+                        arguments.directory));
+    }
+    const std::uint32_t n = manifest.signal_basis.cubemap().face_resolution();
+    const DenseImage relit = relight(*transport, read_cubemap_strip(arguments.light, n));
     FloatImage image{relit.width, relit.height, 4, {}};
     for (std::uint32_t y = 0; y < relit.height; ++y) {
         for (std::uint32_t x = 0; x < relit.width; ++x) {

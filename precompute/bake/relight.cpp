@@ -5,6 +5,7 @@
 #include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
+#include "protocol/basis/daubechies4.h"
 #include "protocol/transport/block_basis.h"
 
 #include <OpenImageIO/imageio.h>
@@ -21,12 +22,11 @@ namespace relume::bake {
 namespace {
 
 using transport::kBlockSize;
-using Coefficients = std::array<std::vector<float>, 3>;  // of the light, N values a colour
 
 // Adds the columns of one shard to `pixels`, [blocks][3][256].
 void add_shard(const transport::Transport& transport,
                const transport::ShardReader& shard,
-               const Coefficients& coefficients,
+               const SignalCoefficients& coefficients,
                std::vector<double>& pixels) {
     const transport::ColourModel& colour = transport.manifest().colour;
     transport::DecodedCell values;
@@ -39,7 +39,7 @@ void add_shard(const transport::Transport& transport,
             std::array<double, 3> factor{};
             for (std::size_t c = 0; c < 3; ++c) {
                 factor[c] =
-                    double{coefficients[c][j]} * colour.matrix[c][k] * transport.step(j, k);
+                    double{coefficients.rgb[c][j]} * colour.matrix[c][k] * transport.step(j, k);
             }
             const std::uint8_t* cell = segment.cells;
             for (std::uint32_t block = 0; block < shard.block_count(); ++block) {
@@ -119,23 +119,55 @@ DenseImage image_of_surface(const transport::Transport& transport,
 
 }  // namespace
 
-std::vector<double> relit_receivers(const transport::Transport& transport,
-                                    const CubemapLight& light) {
-    const transport::Manifest& manifest = transport.manifest();
-    const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
-    const std::size_t texels = basis::texel_count(manifest.signal_basis.face_resolution());
-    Coefficients coefficients;
+SignalCoefficients coefficients_of_light(const transport::Transport& transport,
+                                         const CubemapLight& light) {
+    const basis::SignalBasis& basis = transport.manifest().signal_basis;
+    if (!basis.is_of_light()) {
+        throw BakeError(
+            "the transport is of kind curves, whose light is frozen, expected one of light");
+    }
+    const auto projection = basis::CubemapProjection::onto(basis.cubemap());
+    const std::size_t texels = basis::texel_count(basis.cubemap().face_resolution());
+    SignalCoefficients coefficients;
     for (std::size_t c = 0; c < light.size(); ++c) {
         if (light[c].size() != texels) {
             throw BakeError(
                 fmt::format("the light has {} texels, expected {}", light[c].size(), texels));
         }
-        coefficients[c].resize(transport.column_count());
-        projection->project_radiance(light[c], coefficients[c]);
+        coefficients.rgb[c].resize(transport.column_count());
+        projection->project_radiance(light[c], coefficients.rgb[c]);
     }
+    return coefficients;
+}
+
+SignalCoefficients coefficients_as_baked(const transport::Transport& transport) {
+    const transport::Manifest& manifest = transport.manifest();
+    if (!manifest.curves) {
+        throw BakeError(fmt::format("the transport is of kind {}, expected curves",
+                                    transport::kKindNames.name(manifest.kind)));
+    }
+    SignalCoefficients coefficients;
+    for (std::size_t c = 0; c < coefficients.rgb.size(); ++c) {
+        std::vector<float>& plane = coefficients.rgb[c];
+        plane.assign(transport.column_count(), 0.0F);
+        plane[basis::CurveBasis::kRest] = 1;
+        for (std::uint32_t m = 0; m < manifest.curves->curves.size(); ++m) {
+            const std::size_t first = manifest.signal_basis.curves().first_coefficient(m);
+            plane[first] = 1;  // the diffuse colour
+            basis::daubechies4_forward(
+                manifest.curves->curves[m].baked[c],
+                std::span(plane).subspan(first + 1).first<basis::kDaubechies4Size>());
+        }
+    }
+    return coefficients;
+}
+
+std::vector<double> relit_receivers(const transport::Transport& transport,
+                                    const SignalCoefficients& signal) {
+    const transport::Manifest& manifest = transport.manifest();
     std::vector<double> values(std::size_t{manifest.block_count()} * 3 * kBlockSize);
     tbb::parallel_for(std::size_t{0}, transport.shards().size(), [&](std::size_t i) {
-        add_shard(transport, transport.shards()[i], coefficients, values);
+        add_shard(transport, transport.shards()[i], signal, values);
     });
     to_receivers(manifest.block_basis, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -144,11 +176,20 @@ std::vector<double> relit_receivers(const transport::Transport& transport,
     return values;
 }
 
-DenseImage relight(const transport::Transport& transport, const CubemapLight& light) {
-    const std::vector<double> values = relit_receivers(transport, light);
+std::vector<double> relit_receivers(const transport::Transport& transport,
+                                    const CubemapLight& light) {
+    return relit_receivers(transport, coefficients_of_light(transport, light));
+}
+
+DenseImage relight(const transport::Transport& transport, const SignalCoefficients& signal) {
+    const std::vector<double> values = relit_receivers(transport, signal);
     return transport.manifest().kind == transport::Kind::mesh
                ? image_of_surface(transport, values)
                : image_of_tiles(transport, values);
+}
+
+DenseImage relight(const transport::Transport& transport, const CubemapLight& light) {
+    return relight(transport, coefficients_of_light(transport, light));
 }
 
 CubemapLight read_cubemap_strip(const std::filesystem::path& path,

@@ -21,13 +21,29 @@ struct DenseImage {
     std::vector<float> coverage;             // height·width, in [0, 1]
 };
 
-// What every receiver has of the light, tint applied: [blocks][3][256]. Throws BakeError when
-// the light's size is not the transport's.
+// A signal in the transport's basis.
+struct SignalCoefficients {
+    std::array<std::vector<float>, 3> rgb;  // N values each
+};
+
+// Throws BakeError when the light's size is not the transport's, or its signal is no light.
+[[nodiscard]] SignalCoefficients coefficients_of_light(const transport::Transport& transport,
+                                                       const CubemapLight& light);
+// Materials as they were baked, of a transport of kind `curves`. Throws BakeError for others.
+[[nodiscard]] SignalCoefficients coefficients_as_baked(const transport::Transport& transport);
+
+// What every receiver has of the signal, tint applied: [blocks][3][256].
+[[nodiscard]] std::vector<double> relit_receivers(const transport::Transport& transport,
+                                                  const SignalCoefficients& signal);
+// Of coefficients_of_light.
 [[nodiscard]] std::vector<double> relit_receivers(const transport::Transport& transport,
                                                   const CubemapLight& light);
 
 // The image of the transport's camera; of kind `mesh` at the size that the manifest names, with
 // sixteen rays a pixel.
+[[nodiscard]] DenseImage relight(const transport::Transport& transport,
+                                 const SignalCoefficients& signal);
+// Of coefficients_of_light.
 [[nodiscard]] DenseImage relight(const transport::Transport& transport,
                                  const CubemapLight& light);
 

@@ -63,8 +63,13 @@ void write_pictures(const std::filesystem::path& directory) {
     make_folder(directory / "view");
     const auto transport = transport::Transport::open(directory);
     const transport::Manifest& manifest = transport->manifest();
+    const basis::SignalBasis& basis = manifest.signal_basis;
     const DenseImage relit = relight(
-        *transport, thumbnail_light(manifest.signal_basis.face_resolution(), manifest.camera));
+        *transport, basis.is_of_light()
+                        ? coefficients_of_light(
+                              *transport, thumbnail_light(basis.cubemap().face_resolution(),
+                                                          manifest.camera))
+                        : coefficients_as_baked(*transport));
     constexpr float kBackdrop = 0.12F;
     std::vector<float> pixels;
     for (std::size_t i = 0; i < relit.coverage.size(); ++i) {

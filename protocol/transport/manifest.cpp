@@ -18,17 +18,28 @@ namespace {
 using nlohmann::json;
 using BasisKind = basis::CubemapBasis::Kind;
 
-basis::CubemapBasis signal_basis(const ManifestReader& object) {
+constexpr std::string_view kHaar = "haar";
+constexpr std::string_view kSphericalHarmonics = "sh";
+constexpr std::string_view kDaubechies4 = "daubechies4";
+
+// Of kind `curves` there is one curve for each of its materials.
+basis::SignalBasis signal_basis(const ManifestReader& object, const Manifest& manifest) {
     const std::string name = object.string("name");
+    if (manifest.curves) {
+        object.expect_text("name", kDaubechies4);
+        const auto count = static_cast<std::uint32_t>(manifest.curves->curves.size());
+        object.expect_integer("curves", count);
+        return basis::CurveBasis(count);
+    }
     const std::uint32_t n = object.integer32("face_resolution", basis::kMinFaceResolution,
                                              basis::kMaxFaceResolution);
     if (!basis::is_face_resolution(n)) {
         object.fail("face_resolution", std::to_string(n), "a power of two from 4 to 256");
     }
-    if (name == name_of(BasisKind::haar)) {
+    if (name == kHaar) {
         return basis::CubemapBasis::haar(n);
     }
-    if (name == name_of(BasisKind::spherical_harmonics)) {
+    if (name == kSphericalHarmonics) {
         return basis::CubemapBasis::spherical_harmonics(
             object.integer32("order", 1, basis::kMaxShOrder), n);
     }
@@ -73,7 +84,7 @@ std::vector<ShardRecord> shard_records(const ManifestReader& top,
 
 // What the receivers are and how they are stored, as the kind says.
 void read_receivers(const ManifestReader& top, Manifest& manifest) {
-    if (manifest.kind == Kind::image) {
+    if (manifest.kind != Kind::mesh) {
         const ManifestReader image = top.object("image");
         manifest.layout = ReceiverLayout::pixel_tiles(
             {.width = image.integer32("width", 1, kMaxImageSide),
@@ -116,14 +127,22 @@ void check_first_line(std::string_view text, std::string_view file) {
 
 }  // namespace
 
-std::string_view name_of(BasisKind kind) {
-    return kind == BasisKind::haar ? "haar" : "sh";
+std::string_view name_of(const basis::SignalBasis& basis) {
+    if (!basis.is_of_light()) {
+        return kDaubechies4;
+    }
+    return basis.cubemap().kind() == BasisKind::haar ? kHaar : kSphericalHarmonics;
 }
 
-json json_from(const basis::CubemapBasis& basis) {
-    json object{{"name", name_of(basis.kind())}, {"face_resolution", basis.face_resolution()}};
-    if (basis.kind() == BasisKind::spherical_harmonics) {
-        object["order"] = basis.order();
+json json_from(const basis::SignalBasis& basis) {
+    json object{{"name", name_of(basis)}};
+    if (!basis.is_of_light()) {
+        object["curves"] = basis.curves().curve_count();
+        return object;
+    }
+    object["face_resolution"] = basis.cubemap().face_resolution();
+    if (basis.cubemap().kind() == BasisKind::spherical_harmonics) {
+        object["order"] = basis.cubemap().order();
     }
     return object;
 }
@@ -156,7 +175,7 @@ std::string text_from_manifest(const Manifest& manifest) {
         {"camera", json_from(manifest.camera)},
         {"bake", manifest.bake},
         {"measured", manifest.measured}};
-    if (manifest.kind == Kind::image) {
+    if (manifest.kind != Kind::mesh) {
         object["image"] = {{"width", manifest.image().width},
                            {"height", manifest.image().height}};
     } else {
@@ -165,6 +184,10 @@ std::string text_from_manifest(const Manifest& manifest) {
         object["files"]["mesh"] = json_from(manifest.mesh->mesh);
         object["files"]["brdfs"] = json_from(manifest.mesh->brdfs);
         object["files"]["textures"] = json_from(manifest.mesh->textures);
+    }
+    if (manifest.curves) {
+        object["curves"] = json_from(manifest.curves->curves);
+        object["light"] = manifest.curves->light;
     }
     if (manifest.sampling_error) {
         object["sampling_error"] = json_from(manifest.sampling_error);
@@ -198,7 +221,10 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
     manifest.generator = top.string("generator");
     manifest.fingerprint = top.digits("fingerprint");
     read_receivers(top, manifest);
-    manifest.signal_basis = signal_basis(top.object("basis"));
+    if (manifest.kind == Kind::curves) {
+        manifest.curves = curves_section(top);
+    }
+    manifest.signal_basis = signal_basis(top.object("basis"), manifest);
     manifest.colour = colour_model(top.object("colour"));
     top.expect_integer("blocks", manifest.block_count());
     const ManifestReader sketch = top.object("sketch");

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "protocol/base/text/name_table.h"
-#include "protocol/basis/cubemap_basis.h"
+#include "protocol/basis/signal_basis.h"
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/camera_record.h"
 #include "protocol/transport/colour_model.h"
+#include "protocol/transport/curves_section.h"
 #include "protocol/transport/file_record.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/mesh_section.h"
@@ -31,16 +32,19 @@ namespace relume::transport {
 //           is a tile of pixels, stored in the tile's Haar basis
 //   mesh    from light to the vertices of a surface, for cameras that move: sections mesh,
 //           basis and camera; a block is one term of a cluster of vertices
-enum class Kind : std::uint8_t { image, mesh };
+//   curves  from curves of materials to the pixels of one camera, under a light that is frozen
+//           in it: sections curves and light beside those of an image
+enum class Kind : std::uint8_t { image, mesh, curves };
 
-inline constexpr text::NameTable<Kind, 2> kKindNames({{
+inline constexpr text::NameTable<Kind, 3> kKindNames({{
     {Kind::image, "image"},
     {Kind::mesh, "mesh"},
+    {Kind::curves, "curves"},
 }});
 
-// As the manifest and people name a basis: "haar", "sh".
-[[nodiscard]] std::string_view name_of(basis::CubemapBasis::Kind kind);
-[[nodiscard]] nlohmann::json json_from(const basis::CubemapBasis& basis);
+// As the manifest and people name a basis: "haar", "sh", "daubechies4".
+[[nodiscard]] std::string_view name_of(const basis::SignalBasis& basis);
+[[nodiscard]] nlohmann::json json_from(const basis::SignalBasis& basis);
 
 struct ShardRecord {
     std::string file;
@@ -68,7 +72,7 @@ struct Manifest {
     Kind kind = Kind::image;
     ReceiverLayout layout;
     BlockBasis block_basis = BlockBasis::haar_tile;
-    basis::CubemapBasis signal_basis;
+    basis::SignalBasis signal_basis;
     ColourModel colour;
     std::uint32_t stating_rows = 0;   // of the sketch that states errors
     std::uint32_t choosing_rows = 0;  // of the sketch by which a server chooses what to do
@@ -78,6 +82,7 @@ struct Manifest {
     std::vector<ShardRecord> shards;
     CameraRecord camera;
     std::optional<MeshSection> mesh;              // of kind `mesh`
+    std::optional<CurvesSection> curves;          // of kind `curves`
     std::optional<SamplingError> sampling_error;  // where the bake has estimated it
     nlohmann::json bake = nlohmann::json::object();
     nlohmann::json measured = nlohmann::json::object();
@@ -92,7 +97,7 @@ struct Manifest {
         return kind == Kind::mesh ? SketchStrata::several(rows, block_count())
                                   : SketchStrata{rows, block_count()};
     }
-    // Of kind `image`: how its pixels lie in tiles.
+    // Of kinds `image` and `curves`: how the pixels lie in tiles.
     [[nodiscard]] const TileGrid& image() const { return layout.tiles(); }
 };
 

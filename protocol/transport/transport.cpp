@@ -132,7 +132,8 @@ void Transport::open_tables() {
     TableReader sketch_table = reader(2, manifest_.sketch);
     const auto take_sketch = [&](std::uint32_t rows, const char* scale) {
         const auto scales = sketch_table.take_floats(columns * kColours, scale);
-        return Sketch(manifest_.sketch_strata(rows), scales, sketch_table.take<std::int8_t>(columns * kColours * rows));
+        return Sketch(manifest_.sketch_strata(rows), scales,
+                      sketch_table.take<std::int8_t>(columns * kColours * rows));
     };
     stating_sketch_ = take_sketch(manifest_.stating_rows, "scale of stating rows");
     choosing_sketch_ = take_sketch(manifest_.choosing_rows, "scale of choosing rows");

@@ -183,7 +183,9 @@ void Server::Parts::warm_up() {
         environments.find(configuration.rooms.environment);
     try {
         for (const auto& scene : scenes.list()) {
-            static_cast<void>(first->prefiltered(scene->loaded->face_resolution()));
+            if (scene->loaded->is_lit()) {
+                static_cast<void>(first->prefiltered(scene->loaded->face_resolution()));
+            }
         }
     } catch (const std::exception& failure) {
         spdlog::error("environment_broken name={} reason={:?}", configuration.rooms.environment,

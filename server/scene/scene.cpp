@@ -10,10 +10,12 @@ namespace relume::served {
 
 Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)),
-      projection_(basis::CubemapProjection::onto(transport_->manifest().signal_basis)),
       operator_(std::make_shared<const engine::StoredOperator>(transport_)),
       workspace_(std::make_shared<const engine::Workspace>(operator_)) {
     const transport::Manifest& manifest = transport_->manifest();
+    if (manifest.signal_basis.is_of_light()) {
+        projection_ = basis::CubemapProjection::onto(manifest.signal_basis.cubemap());
+    }
     if (!transport_->surface()) {
         beginning_ = beginning_of_image(manifest);
         return;
@@ -24,6 +26,11 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
         manifest.mesh->materials, manifest.layout.clusters());
     bounds_ = bounds_of(surface.mesh, manifest.mesh->frame);
     beginning_ = beginning_of_mesh(manifest, surface.mesh, *bounds_);
+}
+
+std::span<const transport::CurveRecord> Scene::curves() const {
+    const std::optional<transport::CurvesSection>& section = transport_->manifest().curves;
+    return section ? section->curves : std::span<const transport::CurveRecord>();
 }
 
 std::unique_ptr<view::View> Scene::make_view() const {

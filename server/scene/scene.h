@@ -30,11 +30,16 @@ class Scene {
     Scene& operator=(const Scene&) = delete;
 
     [[nodiscard]] const transport::Transport& transport() const { return *transport_; }
-    // From a cubemap of light of resolution `face_resolution()` to a signal.
+    // Whether the signal is light. Otherwise it is curves, whose light is frozen.
+    [[nodiscard]] bool is_lit() const { return projection_ != nullptr; }
+    // From a cubemap of light of resolution `face_resolution()` to a signal. Of a scene that is
+    // lit.
     [[nodiscard]] const basis::CubemapProjection& projection() const { return *projection_; }
     [[nodiscard]] std::uint32_t face_resolution() const {
         return projection_->basis().face_resolution();
     }
+    // Of the materials that people edit, in the order of the basis; none where it is lit.
+    [[nodiscard]] std::span<const transport::CurveRecord> curves() const;
     [[nodiscard]] const engine::StoredOperator& stored_operator() const { return *operator_; }
     [[nodiscard]] const engine::ColumnTable& columns() const { return operator_->columns(); }
     // What sessions over the scene are made with.
@@ -60,7 +65,7 @@ class Scene {
 
   private:
     std::shared_ptr<const transport::Transport> transport_;
-    std::shared_ptr<const basis::CubemapProjection> projection_;
+    std::shared_ptr<const basis::CubemapProjection> projection_;  // null where it is not lit
     std::shared_ptr<const engine::StoredOperator> operator_;
     std::shared_ptr<const engine::Workspace> workspace_;
     std::shared_ptr<const view::DrawnSurface> surface_;  // of a mesh

@@ -142,7 +142,7 @@ void run(const char* directory) {
     const auto& shards = transport->shards();
     std::array<Outcome, kRates.size()> outcomes{};
     // The middle of the image stands for all of it.
-    measure(shards[shards.size() / 2], transport->manifest().signal_basis.face_resolution(),
+    measure(shards[shards.size() / 2], transport->manifest().signal_basis.cubemap().face_resolution(),
             outcomes);
     const Outcome& by_bytes = outcomes.back();
     fmt::print("{:>10} {:>12} {:>8} {:>8}\n", "ns/byte", "bytes", "bytes ÷", "time ÷");

@@ -125,7 +125,7 @@ double storage_bound(const transport::Transport& transport, const Light& light) 
     for (const Imath::V3f& texel : light) {
         coefficients.push_back(texel.x);
     }
-    basis::haar_forward_cubemap(transport.manifest().signal_basis.face_resolution(),
+    basis::haar_forward_cubemap(transport.manifest().signal_basis.cubemap().face_resolution(),
                                 coefficients);
     double sum = 0;
     for (std::size_t j = 0; j < coefficients.size(); ++j) {

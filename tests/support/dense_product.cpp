@@ -12,8 +12,8 @@ namespace relume::test {
 LinearImage dense_product(const transport::Transport& transport,
                           const std::vector<Imath::V3f>& light) {
     const transport::Manifest& manifest = transport.manifest();
-    const auto projection = basis::CubemapProjection::onto(manifest.signal_basis);
-    if (light.size() != basis::texel_count(manifest.signal_basis.face_resolution()))
+    const auto projection = basis::CubemapProjection::onto(manifest.signal_basis.cubemap());
+    if (light.size() != basis::texel_count(manifest.signal_basis.cubemap().face_resolution()))
         throw std::invalid_argument("the light has other texels than the transport");
     const std::size_t columns = transport.column_count();
     std::vector<float> plane(light.size());

@@ -52,10 +52,11 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
                                    std::mt19937_64& random) {
     transport::BakedTables tables;
     const std::uint32_t channels = manifest.colour.channels;
+    const basis::Bands bands = manifest.signal_basis.bands();
     for (std::size_t j = 0; j < manifest.column_count(); ++j) {
-        const auto band = manifest.signal_basis.band_from_coefficient(j);
+        const int band = bands.of_coefficient[j];
         for (std::uint32_t k = 0; k < channels; ++k) {
-            tables.steps.push_back(std::ldexp(1e-4F, -static_cast<int>(band + k)));
+            tables.steps.push_back(std::ldexp(1e-4F, -(band + static_cast<int>(k))));
         }
     }
     const std::size_t slots = manifest.layout.slot_count();

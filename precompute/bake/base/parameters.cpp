@@ -73,7 +73,7 @@ nlohmann::json json_from_parameters(const BakeParameters& p) {
         object["up_axis"] = "z";
     }
     if (p.basis == basis::CubemapBasis::Kind::spherical_harmonics) {
-        object["basis"] = transport::name_of(p.basis);
+        object["basis"] = transport::name_of(signal_basis(p));
         object["order"] = p.order;
     }
     if (p.receivers == ReceiverKind::vertices) {

@@ -2,7 +2,7 @@
 // each has one curve of its BRDF that people edit, and a diffuse colour.
 #pragma once
 
-#include "protocol/base/text/name_table.h"
+#include "protocol/curve/curve_shape.h"
 #include "protocol/wire/sections/section.h"
 
 #include <Imath/ImathVec.h>
@@ -15,30 +15,7 @@
 
 namespace relume::wire {
 
-inline constexpr std::uint32_t kCurveSamples = 256;
 inline constexpr std::uint32_t kMostControlPoints = 32;
-
-// A family of curves with parameters. Which of them a curve can have, and the formulas, are
-// those of protocol/README.md.
-enum class CurveShape : std::uint8_t {
-    beckmann,
-    ggx,
-    cosine_power,
-    conductor,
-    dielectric,
-    schlick,
-    constant
-};
-
-inline constexpr text::NameTable<CurveShape, 7> kCurveShapeNames({{
-    {CurveShape::beckmann, "beckmann"},
-    {CurveShape::ggx, "ggx"},
-    {CurveShape::cosine_power, "cosine_power"},
-    {CurveShape::conductor, "conductor"},
-    {CurveShape::dielectric, "dielectric"},
-    {CurveShape::schlick, "schlick"},
-    {CurveShape::constant, "constant"},
-}});
 
 // The curve shown is `samples` times `tint`. Where the samples were made from control points or
 // a shape, these stand beside them, so that whoever edits on begins with them. A material
@@ -46,13 +23,14 @@ inline constexpr text::NameTable<CurveShape, 7> kCurveShapeNames({{
 struct MaterialEdit {
     NumberTable samples{.columns = 3, .numbers = {}};  // [256][r, g, b]
     std::optional<NumberTable> points;                 // [2 … 32][u, r, g, b]
-    std::optional<CurveShape> shape;
+    std::optional<curve::CurveShape> shape;
     double roughness = 0.2;
     double exponent = 50;
     Imath::V3d n{1.5, 1.5, 1.5};
     Imath::V3d e{0, 0, 0};
     Imath::V3d f0{0.04, 0.04, 0.04};
-    double level = 1;
+    double f90 = 1;
+    Imath::V3d value{1, 1, 1};
     Imath::V3d tint{1, 1, 1};
     Imath::V3d diffuse{1, 1, 1};
 
@@ -66,11 +44,11 @@ using MaterialEdits = std::map<std::string, MaterialEdit>;
 }
 
 // Of a value of a curve. The distribution of a mirror is narrow and high.
-inline constexpr Range kCurveValue{0, 1e6};
+inline constexpr Range kCurveValue{0, curve::kMostCurveValue};
 
 inline constexpr std::array kMaterialFields{
     field::table<&MaterialEdit::samples>("samples",
-                                         {kCurveSamples, kCurveSamples, 3},
+                                         {curve::kCurveSamples, curve::kCurveSamples, 3},
                                          kCurveValue,
                                          "of the curve, r, g, b at u = k/255")
         .needed(),
@@ -79,16 +57,19 @@ inline constexpr std::array kMaterialFields{
         {2, kMostControlPoints, 4},
         kCurveValue,
         "u, r, g, b of the control points that the samples were made from"),
-    field::word<&MaterialEdit::shape, kCurveShapeNames>(
+    field::word<&MaterialEdit::shape, curve::kCurveShapeNames>(
         "shape", "that the samples were made from, with the parameters below"),
     field::number<&MaterialEdit::roughness>(
-        "roughness", {0.001, 1}, "of shapes `beckmann` (root mean square slope) and `ggx` (α)"),
+        "roughness", {0.001, 2}, "σ of shapes `beckmann` and `velvet`, α of `ggx`"),
     field::number<&MaterialEdit::exponent>("exponent", {0, 1e5}, "of shape `cosine_power`"),
     field::triple<&MaterialEdit::n>(
-        "n", {0.05, 20}, "index of refraction, of shapes `conductor` and `dielectric`"),
+        "n", {0.01, 10}, "index of refraction, of `conductor`; its green that of `dielectric`"),
     field::triple<&MaterialEdit::e>("e", {0, 20}, "extinction, of shape `conductor`"),
-    field::triple<&MaterialEdit::f0>("f0", {0, 1}, "reflected straight on, of shape `schlick`"),
-    field::number<&MaterialEdit::level>("level", kCurveValue, "of shape `constant`"),
+    field::triple<&MaterialEdit::f0>(
+        "f0", {0, 1}, "reflected straight on, of shape `schlick`"),
+    field::number<&MaterialEdit::f90>(
+        "f90", {0, 1}, "reflected at grazing angles, of shape `schlick`"),
+    field::triple<&MaterialEdit::value>("value", kCurveValue, "of shape `constant`"),
     field::triple<&MaterialEdit::tint>("tint", kColour, "times the curve, by colour"),
     field::triple<&MaterialEdit::diffuse>(
         "diffuse", kColour, "times the diffuse reflection as baked, by colour"),

@@ -36,8 +36,12 @@ std::optional<wire::SceneBounds> bounds_of(const served::Scene& scene) {
 }
 
 std::vector<std::string> edits_of(const served::Scene& scene) {
-    std::vector<std::string> edits{"environment", "blend",    "rotation", "lights",
-                                   "background",  "strategy", "budget",   "display"};
+    std::vector<std::string> edits{"strategy", "budget", "display"};
+    if (!scene.is_lit()) {
+        edits.insert(edits.begin(), "materials");
+        return edits;
+    }
+    edits.insert(edits.begin(), {"environment", "blend", "rotation", "lights", "background"});
     if (scene.view_can_move()) {
         edits.insert(edits.end(), {"camera", "image"});
     }
@@ -47,24 +51,25 @@ std::vector<std::string> edits_of(const served::Scene& scene) {
 }  // namespace
 
 wire::SceneSummary ServedScene::summary() const {
-    const basis::CubemapBasis& basis = loaded->projection().basis();
-    const bool is_haar = basis.kind() == basis::CubemapBasis::Kind::haar;
-    const auto& sampling = loaded->transport().manifest().sampling_error;
+    const transport::Manifest& manifest = loaded->transport().manifest();
+    const bool has_order = loaded->is_lit() && loaded->projection().basis().order() > 0;
+    const auto& sampling = manifest.sampling_error;
     return {
         .name = name,
-        .kind = std::string(transport::kKindNames.name(loaded->transport().manifest().kind)),
+        .kind = std::string(transport::kKindNames.name(manifest.kind)),
         .width = loaded->image().width,
         .height = loaded->image().height,
-        .basis = std::string(transport::name_of(basis.kind())),
-        .order = is_haar ? std::nullopt : std::optional(basis.order()),
-        .face_resolution = loaded->face_resolution(),
+        .basis = std::string(transport::name_of(manifest.signal_basis)),
+        .order = has_order ? std::optional(loaded->projection().basis().order()) : std::nullopt,
+        .face_resolution = loaded->is_lit() ? loaded->face_resolution() : 0,
         .columns = static_cast<std::uint32_t>(loaded->columns().count()),
-        .channels = loaded->transport().manifest().colour.channels,
+        .channels = manifest.colour.channels,
         .bytes = loaded->transport().total_bytes(),
         .memory_bytes = loaded->bytes(),
         .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
         .camera = camera_of(loaded->beginning()),
         .bounds = bounds_of(*loaded),
+        .materials = {},
         .edits = edits_of(*loaded)};
 }
 
@@ -134,10 +139,9 @@ void SceneLibrary::open(const fs::path& directory) {
                                                         .loaded = std::move(loaded),
                                                         .sky = std::move(sky)});
     const transport::TileGrid& image = scene->loaded->image();
-    spdlog::info(
-        "scene_opened name={} width={} height={} face_resolution={} bytes={} memory_bytes={}",
-        name, image.width, image.height, scene->loaded->face_resolution(), bytes,
-        scene->loaded->bytes());
+    spdlog::info("scene_opened name={} width={} height={} columns={} bytes={} memory_bytes={}",
+                 name, image.width, image.height, scene->loaded->columns().count(), bytes,
+                 scene->loaded->bytes());
     const std::lock_guard lock(mutex_);
     scenes_[name].swap(scene);  // the former one, if it was the last hold, ends after the lock
 }

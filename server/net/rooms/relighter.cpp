@@ -1,72 +1,12 @@
 #include "server/net/rooms/relighter.h"
 
-#include <Imath/ImathMath.h>
-
 #include <algorithm>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 namespace relume::net {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-light::AreaLight area_light_from(const wire::AreaLight& light) {
-    return {.direction = Imath::V3f(light.direction),
-            .angular_radius_radians =
-                static_cast<float>(light.angular_radius_degrees * kRadiansPerDegree),
-            .radiance = Imath::V3f(light.radiance * light.tint * light.gain)};
-}
-
-// Black, and a problem to report, if it cannot be decoded.
-std::shared_ptr<const light::PrefilteredEnvironment> prefiltered(
-    const std::shared_ptr<Environment>& environment,
-    std::uint32_t face_resolution,
-    const char* path,
-    std::vector<wire::ErrorMessage>& problems) {
-    if (!environment) {
-        return nullptr;
-    }
-    try {
-        return environment->prefiltered(face_resolution);
-    } catch (const light::EnvironmentError& failure) {
-        problems.push_back({.code = wire::ErrorCode::bad_image,
-                            .message = "the environment cannot be decoded and is shown black",
-                            .path = path,
-                            .found = failure.found().empty() ? environment->description().name
-                                                             : failure.found(),
-                            .expected = failure.expected().empty() ? "a readable HDR image"
-                                                                   : failure.expected(),
-                            .edit_id = {}});
-        return nullptr;
-    }
-}
-
-light::LightRig rig_from_state(const wire::RoomState& state,
-                               const NamedEnvironments& environments,
-                               std::uint32_t face_resolution,
-                               std::vector<wire::ErrorMessage>& problems) {
-    light::LightRig rig;
-    rig.environment =
-        prefiltered(environments.environment, face_resolution, "/environment/name", problems);
-    rig.blend = prefiltered(environments.blend, face_resolution, "/blend/name", problems);
-    rig.blend_amount = environments.blend ? static_cast<float>(state.blend.amount) : 0.0F;
-    rig.rotation = Imath::Quatf(state.rotation.quaternion);
-    rig.environment_scale = Imath::V3f(state.environment.tint * state.environment.gain);
-    const bool solo = wire::any_solo(state.lights);
-    if (solo) {
-        rig.environment = nullptr;
-        rig.blend = nullptr;
-    }
-    for (const auto& [id, light] : state.lights) {
-        if (wire::lights_now(light, solo)) {
-            rig.lights.push_back(area_light_from(light));
-        }
-    }
-    return rig;
-}
 
 view::Look look_of(const wire::RoomState& state) {
     return {.eye = state.camera.eye,
@@ -86,6 +26,7 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
       metrics_(metrics),
       session_(scene_->loaded->workspace(), relighting::Strategy{}),
       composer_(std::make_shared<FrameComposer>(scene_->loaded->make_view(), scene_->sky)),
+      signal_(make_signal(*scene_->loaded)),
       budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
@@ -96,14 +37,18 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
     if (!state_) {
         stages = kAllStages;
     }
-    const bool light_is_new =
-        stages.has(wire::Stage::signal) && set_light(state, environments, problems);
+    const bool signal_is_new =
+        stages.has(wire::Stage::signal) && signal_->set_state(state, environments, problems);
+    if (signal_is_new) {
+        session_.set_target(signal_->coefficients());
+        pixels_changed();
+    }
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
     if (stages.has(wire::Stage::view) && (composer_->look(look_of(state)) || !state_)) {
         tell_session_what_counts();
     }
-    if (stages.has(wire::Stage::view) || (light_is_new && sees_environment)) {
-        composer_->set_background(state.background, rig_);
+    if (stages.has(wire::Stage::view) || (signal_is_new && sees_environment)) {
+        composer_->set_background(state.background, signal_->rig());
         pixels_changed();
     }
     if (stages.has(wire::Stage::policy)) {
@@ -113,29 +58,13 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
         image_changed_ = true;
     }
     state_ = state;
-    if (light_is_new) {
+    if (signal_is_new) {
         const Clock::duration spent = Clock::now() - begin;
         metrics_.observe_lighting(seconds(spent));
         budget_.begin_step(milliseconds(spent));
         relight_time_ += spent;
     }
     return problems;
-}
-
-bool Relighter::set_light(const wire::RoomState& state,
-                          const NamedEnvironments& environments,
-                          std::vector<wire::ErrorMessage>& problems) {
-    const std::uint32_t n = scene_->loaded->face_resolution();
-    light::LightRig rig = rig_from_state(state, environments, n, problems);
-    if (state_ && rig == rig_) {
-        return false;
-    }
-    rig_ = std::move(rig);
-    light::evaluate(rig_, n, cubemap_);
-    light::lighting_coefficients(cubemap_, scene_->loaded->projection(), coefficients_);
-    session_.set_target(coefficients_);
-    pixels_changed();
-    return true;
 }
 
 // What has not counted is brought up to date where it counts now; an exact image is so already.
@@ -202,7 +131,7 @@ void Relighter::compose(const ImageForms& forms, bool settled) {
 Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
     if (stamp.settled && composer_->look_closer()) {
         tell_session_what_counts();
-        composer_->set_background(state_->background, rig_);
+        composer_->set_background(state_->background, signal_->rig());
     }
     compose(forms, stamp.settled);
     const bool exact = session_.exact();

@@ -1,9 +1,8 @@
-// What one room computes: light from its state, sums from the light, an image from the sums.
-// After an edit only the stages that it touches run again, and those that follow from them.
+// What one room computes: a signal from its state, sums from the signal, an image from the
+// sums. After an edit only the stages that it touches run again, and those that follow from
+// them.
 #pragma once
 
-#include "protocol/light/light_cubemap.h"
-#include "protocol/light/light_rig.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
 #include "server/engine/session.h"
@@ -15,6 +14,7 @@
 #include "server/net/images/picture.h"
 #include "server/net/library/scene_library.h"
 #include "server/net/rooms/named_environments.h"
+#include "server/net/rooms/room_signal.h"
 #include "server/net/rooms/stages.h"
 #include "server/net/rooms/step_budget.h"
 
@@ -34,9 +34,9 @@ class Relighter {
               Clock::duration ceiling);
 
     // Gives the state that images show from now on. `stages` are those in which it differs from
-    // the state before (all of them in the first call); no other stage runs again. New light
-    // begins a new step. An environment that cannot be decoded is black, and the result names
-    // it.
+    // the state before (all of them in the first call); no other stage runs again. A new
+    // signal begins a new step. An environment that cannot be decoded is black, and the result
+    // names it.
     std::vector<wire::ErrorMessage> set_state(const wire::RoomState& state,
                                               const NamedEnvironments& environments,
                                               wire::Stages stages);
@@ -66,10 +66,6 @@ class Relighter {
     void set_overhead(double milliseconds) { budget_.set_overhead(milliseconds); }
 
   private:
-    // False when the light is what it was.
-    [[nodiscard]] bool set_light(const wire::RoomState& state,
-                                 const NamedEnvironments& environments,
-                                 std::vector<wire::ErrorMessage>& problems);
     // Of the view, as it is looked at.
     void tell_session_what_counts();
     void relit(const engine::StepReport& report, Clock::duration spent);
@@ -81,10 +77,9 @@ class Relighter {
     engine::Session session_;
     std::shared_ptr<FrameComposer> composer_;
 
+    const std::unique_ptr<RoomSignal> signal_;
+
     std::optional<wire::RoomState> state_;
-    light::LightRig rig_;
-    light::LightCubemap cubemap_;
-    std::vector<float> coefficients_;
     DisplayTables displays_;
     StepBudget budget_;
 

@@ -112,7 +112,7 @@ class TwoBakes {
                                    const std::vector<float>& coefficients) const {
         std::vector<float> texels(basis::texel_count(projection_->basis().face_resolution()));
         projection_->reconstruct_radiance(coefficients, texels);
-        return relight(transport, {texels, texels, texels});
+        return relight(transport, CubemapLight{texels, texels, texels});
     }
     [[nodiscard]] double noise_of(std::size_t first_light) const {
         double difference = 0;

@@ -29,7 +29,7 @@ TEST_F(RoomImagesTest, TheSettledImageIsTheDenseProductOverTransparency) {
 
     const transport::Transport& transport = scenes_.find("tiny")->loaded->transport();
     const transport::TileGrid& image = transport.manifest().image();
-    const std::uint32_t n = transport.manifest().signal_basis.face_resolution();
+    const std::uint32_t n = transport.manifest().signal_basis.cubemap().face_resolution();
     light::LightRig rig;
     rig.environment = environments_.find("map")->prefiltered(n);
     rig.rotation = Imath::Quatf(wire::quaternion_from_yaw_pitch_roll_degrees(40, 0, 0));

@@ -1,0 +1,70 @@
+#include "server/net/rooms/curve_signal.h"
+
+#include "protocol/basis/curve_basis.h"
+#include "protocol/basis/daubechies4.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace relume::net {
+namespace {
+
+constexpr std::size_t kChannels = 3;
+
+struct ShownMaterial {
+    transport::CurveRecord::Samples curve{};
+    Imath::V3f diffuse{1, 1, 1};
+};
+
+ShownMaterial shown_material(const transport::CurveRecord& record,
+                             const wire::MaterialEdits& edits) {
+    const auto found = edits.find(record.id);
+    if (found == edits.end()) {
+        return {.curve = record.baked, .diffuse = Imath::V3f(1, 1, 1)};
+    }
+    const wire::MaterialEdit& edit = found->second;
+    ShownMaterial shown{.curve = {}, .diffuse = Imath::V3f(edit.diffuse)};
+    for (std::size_t k = 0; k < curve::kCurveSamples; ++k) {
+        for (std::size_t channel = 0; channel < kChannels; ++channel) {
+            shown.curve[channel][k] =
+                static_cast<float>(edit.samples.numbers[k * kChannels + channel] *
+                                   edit.tint[static_cast<int>(channel)]);
+        }
+    }
+    return shown;
+}
+
+}  // namespace
+
+bool CurveSignal::set_state(const wire::RoomState& state,
+                            const NamedEnvironments& /*environments*/,
+                            std::vector<wire::ErrorMessage>& /*problems*/) {
+    if (!coefficients_.empty() && state.materials == shown_) {
+        return false;
+    }
+    shown_ = state.materials;
+    const basis::CurveBasis basis(static_cast<std::uint32_t>(curves_.size()));
+    const std::size_t count = basis.coefficient_count();
+    coefficients_.assign(kChannels * count, 0.0F);
+    for (std::size_t channel = 0; channel < kChannels; ++channel) {
+        coefficients_[channel * count + basis::CurveBasis::kRest] = 1;
+    }
+    for (std::uint32_t m = 0; m < curves_.size(); ++m) {
+        const ShownMaterial shown = shown_material(curves_[m], shown_);
+        for (std::size_t channel = 0; channel < kChannels; ++channel) {
+            const std::span<float> plane =
+                std::span(coefficients_).subspan(channel * count, count);
+            const std::size_t first = basis.first_coefficient(m);
+            plane[first] = shown.diffuse[static_cast<int>(channel)];
+            basis::daubechies4_forward(
+                shown.curve[channel],
+                plane.subspan(first + 1).first<basis::kDaubechies4Size>());
+        }
+    }
+    return true;
+}
+
+}  // namespace relume::net
