@@ -154,6 +154,8 @@ CurveBrdf CurveBrdf::measured(std::vector<BrdfCurve> curves) {
             }
         }
     }
+    std::sort(curves.begin(), curves.end(),
+              [](const BrdfCurve& a, const BrdfCurve& b) { return a.angle < b.angle; });
     CurveBrdf brdf;
     brdf.model_ = CurveModel::measured;
     brdf.is_replaced_.assign(curves.size(), true);

@@ -80,7 +80,8 @@ class CurveBrdf {
                                                  const Imath::V3f& e);
     [[nodiscard]] static CurveBrdf ashikhmin_shirley(const Imath::V3f& rs, float nu, float nv);
     [[nodiscard]] static CurveBrdf phong(const Imath::V3f& ks, float exponent);
-    // One to kMostMeasuredCurves valid curves over different angles; CurveError else.
+    // One to kMostMeasuredCurves valid curves over different angles, which come to
+    // stand in the order of the angles; CurveError else.
     [[nodiscard]] static CurveBrdf measured(std::vector<BrdfCurve> curves);
     // Of every model but `measured`; values as parameters_of(model).
     [[nodiscard]] static CurveBrdf from_parameters(CurveModel model, ParameterValues values);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace relume::basis {
 namespace {
@@ -88,6 +89,20 @@ TEST(Daubechies4, AConstantIsSixteenInTheScalingCoefficient) {
     EXPECT_NEAR(coefficients[0], 4, 1e-6F);
     for (std::size_t j = 1; j < kN; ++j) {
         EXPECT_NEAR(coefficients[j], 0, 1e-7F);
+    }
+}
+
+TEST(Daubechies4, MatchesTheWorkedExample) {
+    Values line;
+    for (std::size_t k = 0; k < kN; ++k) {
+        line[k] = static_cast<float>(k) / 255;
+    }
+    const Values coefficients = forward(line);
+    const std::pair<std::size_t, double> expected[]{
+        {0, 8.000000}, {1, -2.691652},   {2, 0.676736},   {3, -2.590249},
+        {4, 0.000000}, {127, -0.480643}, {255, -0.354940}};
+    for (const auto& [j, value] : expected) {
+        EXPECT_NEAR(coefficients[j], value, 2e-6) << j;
     }
 }
 

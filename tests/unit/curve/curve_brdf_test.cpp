@@ -118,7 +118,7 @@ TEST(CurveBrdf, GgxIsThatOfTheSceneToTheStatedError) {
         float roughness;
         double error;
     };
-    // protocol/README.md §2 has these.
+    // protocol/curves.md §3 has these.
     for (const Stated& stated : {Stated{0.05F, 6e-3}, Stated{0.1F, 2e-3}, Stated{0.2F, 7e-4},
                                  Stated{0.4F, 3e-4}, Stated{0.7F, 1e-4}, Stated{1.0F, 1e-4}}) {
         const V3f base(0.9F, 0.6F, 0.3F);
