@@ -1,6 +1,7 @@
 #include "protocol/transport/curves_section.h"
 
 #include "protocol/base/text/names.h"
+#include "protocol/curve/curve_json.h"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,14 @@ CurveRecord curve_record(const ManifestReader& record) {
                       .angle = record.string("angle"),
                       .brdf = record.notes("brdf"),
                       .baked = samples(record)};
+    try {
+        const curve::CurveBrdf brdf =
+            curve::curve_brdf_from_json(curve.brdf, record.place() + ".brdf");
+        const std::size_t index = brdf.index_of(std::string_view(curve.curve));
+        record.expect_text("angle", curve::kCurveAngleNames.name(brdf.curves()[index].angle));
+    } catch (const curve::CurveError& error) {
+        throw TransportError(error.what());
+    }
     if (!text::is_name(curve.id)) {
         record.fail("id", text::quote(curve.id), std::string(text::kNameRule));
     }

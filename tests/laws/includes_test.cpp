@@ -29,7 +29,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
         {"protocol/brdf", {"protocol/basis"}},
         {"protocol/curve", {"protocol/brdf"}},
         {"protocol/light", {"protocol/basis"}},
-        {"protocol/transport", {"protocol/basis", "protocol/brdf"}},
+        {"protocol/transport", {"protocol/basis", "protocol/brdf", "protocol/curve"}},
         {"protocol/relighting", {}},
         {"protocol/wire", {"protocol/curve", "protocol/relighting"}},
         {"precompute/scene", {"protocol/basis"}},

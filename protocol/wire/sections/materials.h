@@ -2,6 +2,7 @@
 // each has one curve of its BRDF that people edit, and a diffuse colour.
 #pragma once
 
+#include "protocol/curve/control_points.h"
 #include "protocol/curve/curve_shape.h"
 #include "protocol/wire/sections/section.h"
 
@@ -15,14 +16,13 @@
 
 namespace relume::wire {
 
-inline constexpr std::uint32_t kMostControlPoints = 32;
-
 // The curve shown is `samples` times `tint`. Where the samples were made from control points or
 // a shape, these stand beside them, so that whoever edits on begins with them. A material
 // without an entry is as it was baked.
 struct MaterialEdit {
     NumberTable samples{.columns = 3, .numbers = {}};  // [256][r, g, b]
-    std::optional<NumberTable> points;                 // [2 … 32][u, r, g, b]
+    std::optional<NumberTable> points;                 // [1 … 32][u, r, g, b]
+    curve::ValueScale scale = curve::ValueScale::linear;
     std::optional<curve::CurveShape> shape;
     double roughness = 0.2;
     double exponent = 50;
@@ -54,9 +54,11 @@ inline constexpr std::array kMaterialFields{
         .needed(),
     field::table<&MaterialEdit::points>(
         "points",
-        {2, kMostControlPoints, 4},
+        {1, curve::kMostControlPoints, 4},
         kCurveValue,
         "u, r, g, b of the control points that the samples were made from"),
+    field::word<&MaterialEdit::scale, curve::kValueScaleNames>(
+        "scale", "of the values between control points"),
     field::word<&MaterialEdit::shape, curve::kCurveShapeNames>(
         "shape", "that the samples were made from, with the parameters below"),
     field::number<&MaterialEdit::roughness>(
@@ -65,8 +67,7 @@ inline constexpr std::array kMaterialFields{
     field::triple<&MaterialEdit::n>(
         "n", {0.01, 10}, "index of refraction, of `conductor`; its green that of `dielectric`"),
     field::triple<&MaterialEdit::e>("e", {0, 20}, "extinction, of shape `conductor`"),
-    field::triple<&MaterialEdit::f0>(
-        "f0", {0, 1}, "reflected straight on, of shape `schlick`"),
+    field::triple<&MaterialEdit::f0>("f0", {0, 1}, "reflected straight on, of shape `schlick`"),
     field::number<&MaterialEdit::f90>(
         "f90", {0, 1}, "reflected at grazing angles, of shape `schlick`"),
     field::triple<&MaterialEdit::value>("value", kCurveValue, "of shape `constant`"),

@@ -5,6 +5,7 @@
 #include "protocol/base/text/names.h"
 #include "protocol/base/text/near_names.h"
 #include "protocol/transport/transport.h"
+#include "server/net/library/editable_materials.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -33,6 +34,14 @@ std::optional<wire::SceneBounds> bounds_of(const served::Scene& scene) {
     }
     return wire::SceneBounds{.centre = scene.bounds()->centre,
                              .radius = scene.bounds()->radius};
+}
+
+std::vector<wire::EditableMaterial> materials_of(const served::Scene& scene) {
+    std::vector<wire::EditableMaterial> materials;
+    for (const transport::CurveRecord& record : scene.curves()) {
+        materials.push_back(editable_material(record));
+    }
+    return materials;
 }
 
 std::vector<std::string> edits_of(const served::Scene& scene) {
@@ -69,7 +78,7 @@ wire::SceneSummary ServedScene::summary() const {
         .bake_error = sampling ? std::optional(sampling->natural) : std::nullopt,
         .camera = camera_of(loaded->beginning()),
         .bounds = bounds_of(*loaded),
-        .materials = {},
+        .materials = materials_of(*loaded),
         .edits = edits_of(*loaded)};
 }
 

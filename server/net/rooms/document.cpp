@@ -1,14 +1,17 @@
 #include "server/net/rooms/document.h"
 
 #include "protocol/wire/room_patch.h"
+#include "server/net/rooms/curve_edits.h"
 
 #include <string>
 #include <utility>
 
 namespace relume::net {
 
-Document::Document(const wire::SceneSummary& scene, std::shared_ptr<Environment> environment)
-    : edits_(scene.edits) {
+Document::Document(const wire::SceneSummary& scene,
+                   std::shared_ptr<Environment> environment,
+                   std::span<const transport::CurveRecord> curves)
+    : edits_(scene.edits), curves_(curves) {
     state_.camera = scene.camera.value_or(wire::Camera{});
     state_.image = {.width = scene.width, .height = scene.height};
     state_.environment.name = environment->description().name;
@@ -42,8 +45,9 @@ DocumentChange Document::edit(ViewerId author,
                               const wire::Limits& limits,
                               const EnvironmentLibrary& library) {
     wire::RoomState next = state_;
+    const nlohmann::json patch = with_samples(edit.patch, state_.materials, curves_);
     DocumentChange change{.revision = revision_ + 1,
-                          .patch = wire::apply_patch(next, edit.patch, limits).patch,
+                          .patch = wire::apply_patch(next, patch, limits).patch,
                           .author = author,
                           .edit_id = edit.id,
                           .stages = {}};

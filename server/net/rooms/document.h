@@ -1,6 +1,7 @@
 // What the people in a room have agreed on: one state, changed by edits that are numbered.
 #pragma once
 
+#include "protocol/transport/curves_section.h"
 #include "protocol/wire/limits.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,8 +33,11 @@ struct DocumentChange {
 // Not thread-safe.
 class Document {
   public:
-    // Revision 0 is the default state of a room of `scene` under this environment.
-    Document(const wire::SceneSummary& scene, std::shared_ptr<Environment> environment);
+    // Revision 0 is the default state of a room of `scene` under this environment. `curves` are
+    // those of its materials, and outlive the document.
+    Document(const wire::SceneSummary& scene,
+             std::shared_ptr<Environment> environment,
+             std::span<const transport::CurveRecord> curves = {});
 
     // Throws wire::WireError naming what in the patch cannot be; the document is then as
     // before.
@@ -57,6 +62,7 @@ class Document {
     void advance(const DocumentChange& change);
 
     const std::vector<std::string> edits_;  // the sections that take them
+    const std::span<const transport::CurveRecord> curves_;
     wire::RoomState state_;
     NamedEnvironments environments_;
     std::uint64_t revision_ = 0;

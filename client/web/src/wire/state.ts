@@ -16,7 +16,8 @@ export interface Range {
     highest: number;
 }
 
-export type MaterialsShape = "beckmann" | "ggx" | "cosine_power" | "conductor" | "dielectric" | "schlick" | "constant";
+export type MaterialsScale = "linear" | "logarithmic";
+export type MaterialsShape = "beckmann" | "ggx" | "velvet" | "conductor" | "dielectric" | "schlick" | "cosine_power" | "constant";
 export type BackgroundMode = "environment" | "colour" | "transparent";
 export type StrategyMethod = "nwa" | "bi" | "pbi" | "guarded";
 export type StrategyPriority = "area" | "none" | "transport" | "benefit";
@@ -74,20 +75,24 @@ export interface MaterialEdit {
     samples: number[][];
     /** U, r, g, b of the control points that the samples were made from. */
     points?: number[][] | null;
+    /** Of the values between control points. */
+    scale: MaterialsScale;
     /** That the samples were made from, with the parameters below. */
     shape?: MaterialsShape | null;
-    /** Of shapes `beckmann` (root mean square slope) and `ggx` (α). */
+    /** σ of shapes `beckmann` and `velvet`, α of `ggx`. */
     roughness: number;
     /** Of shape `cosine_power`. */
     exponent: number;
-    /** Index of refraction, of shapes `conductor` and `dielectric`. */
+    /** Index of refraction, of `conductor`; its green that of `dielectric`. */
     n: Triple;
     /** Extinction, of shape `conductor`. */
     e: Triple;
     /** Reflected straight on, of shape `schlick`. */
     f0: Triple;
+    /** Reflected at grazing angles, of shape `schlick`. */
+    f90: number;
     /** Of shape `constant`. */
-    level: number;
+    value: Triple;
     /** Times the curve, by colour. */
     tint: Triple;
     /** Times the diffuse reflection as baked, by colour. */
@@ -206,12 +211,13 @@ export const kRanges = {
     materials: {
         samples: { lowest: 0, highest: 1e6 },
         points: { lowest: 0, highest: 1e6 },
-        roughness: { lowest: 0.001, highest: 1 },
+        roughness: { lowest: 0.001, highest: 2 },
         exponent: { lowest: 0, highest: 1e5 },
-        n: { lowest: 0.05, highest: 20 },
+        n: { lowest: 0.01, highest: 10 },
         e: { lowest: 0, highest: 20 },
         f0: { lowest: 0, highest: 1 },
-        level: { lowest: 0, highest: 1e6 },
+        f90: { lowest: 0, highest: 1 },
+        value: { lowest: 0, highest: 1e6 },
         tint: { lowest: 0, highest: 1e4 },
         diffuse: { lowest: 0, highest: 1e4 },
     },
