@@ -36,8 +36,20 @@ std::optional<std::string_view> name_between(std::string_view path,
 std::optional<std::string_view> preview_name(std::string_view path) {
     return name_between(path, "/api/environments/", "/preview.jpg");
 }
-std::optional<std::string_view> thumbnail_name(std::string_view path) {
-    return name_between(path, "/api/scenes/", "/thumbnail.png");
+
+struct ScenePicturePath {
+    std::string_view scene;
+    ScenePicture picture;
+};
+
+std::optional<ScenePicturePath> scene_picture(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto picture = kScenePictures.value(path.substr(slash + 1));
+    const auto name = name_between(path, "/api/scenes/", path.substr(slash));
+    return picture && name ? std::optional(ScenePicturePath{*name, *picture}) : std::nullopt;
 }
 
 // The page reads the query of its own address, and a request to enter a room has rules of its
@@ -76,7 +88,7 @@ HttpRoutes::HttpRoutes(const SceneLibrary& scenes,
       metrics_(metrics) {}
 
 bool HttpRoutes::takes_long(const HttpRequest& request) {
-    return preview_name(request.target.path) || thumbnail_name(request.target.path);
+    return preview_name(request.target.path) || scene_picture(request.target.path);
 }
 
 std::optional<std::string> HttpRoutes::room_of(const HttpRequest& request) {
@@ -140,8 +152,8 @@ HttpReply HttpRoutes::answer_api(const HttpRequest& request) const {
     if (path == kEnvironmentsPath) {
         return environments();
     }
-    if (const auto name = thumbnail_name(path)) {
-        return thumbnail(*name);
+    if (const auto asked = scene_picture(path)) {
+        return picture(asked->scene, asked->picture);
     }
     if (const auto name = preview_name(path)) {
         return preview(*name);
@@ -189,14 +201,16 @@ HttpReply HttpRoutes::environments() const {
     return json_reply(200, nlohmann::json{{"environments", std::move(all)}}.dump());
 }
 
-HttpReply HttpRoutes::thumbnail(std::string_view name) const {
+HttpReply HttpRoutes::picture(std::string_view name, ScenePicture picture) const {
     const std::shared_ptr<const ServedScene> scene = scenes_.find(name);
     if (!scene) {
         return not_found(name, scenes_.expected_in_place_of(name));
     }
-    std::optional<std::string> image = read_thumbnail(*scene);
+    std::optional<std::string> image = read_picture(*scene, picture);
     if (!image) {
-        return not_found("a scene without a thumbnail", "view/thumbnail.png in its directory");
+        const std::string_view file = kScenePictures.name(picture);
+        return not_found(fmt::format("a scene without {}", file),
+                         fmt::format("view/{} in its directory", file));
     }
     return image_reply("image/png", std::make_shared<const std::string>(*std::move(image)));
 }

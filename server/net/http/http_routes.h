@@ -37,7 +37,7 @@ class HttpRoutes {
     [[nodiscard]] HttpReply answer_api(const HttpRequest& request) const;
     [[nodiscard]] HttpReply scenes() const;
     [[nodiscard]] HttpReply environments() const;
-    [[nodiscard]] HttpReply thumbnail(std::string_view name) const;
+    [[nodiscard]] HttpReply picture(std::string_view name, ScenePicture picture) const;
     [[nodiscard]] HttpReply preview(std::string_view name) const;
     [[nodiscard]] HttpReply file(const HttpRequest& request) const;
     [[nodiscard]] HttpReply readyz() const;

@@ -187,11 +187,11 @@ std::uint64_t SceneLibrary::total_bytes() const {
     return bytes;
 }
 
-std::optional<std::string> read_thumbnail(const ServedScene& scene) {
+std::optional<std::string> read_picture(const ServedScene& scene, ScenePicture picture) {
     // Sent to anybody who asks: no link may lead to another file.
     try {
-        return files::read_regular_file(scene.directory / "view" / "thumbnail.png",
-                                        SceneLibrary::kMaxThumbnailBytes, files::Links::refuse);
+        return files::read_regular_file(scene.directory / "view" / kScenePictures.name(picture),
+                                        SceneLibrary::kMaxPictureBytes, files::Links::refuse);
     } catch (const files::FileError&) {
         return std::nullopt;
     }

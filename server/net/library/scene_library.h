@@ -1,6 +1,7 @@
 // The scenes a server offers: every NAME.relume in one folder.
 #pragma once
 
+#include "protocol/base/text/name_table.h"
 #include "protocol/wire/scene_summary.h"
 #include "server/net/images/sky_pixels.h"
 #include "server/net/library/followed_folder.h"
@@ -37,7 +38,7 @@ class SceneLibrary {
     SceneLibrary();
 
     static constexpr std::size_t kMaxScenes = 1024;
-    static constexpr std::size_t kMaxThumbnailBytes = std::size_t{4} << 20;
+    static constexpr std::size_t kMaxPictureBytes = std::size_t{4} << 20;
 
     // Brings the offer up to date with the folder. Opens and checks scenes that are new or have
     // changed, one after another, each on all threads of the caller's arena; drops those that
@@ -66,7 +67,19 @@ class SceneLibrary {
     std::map<std::string, std::shared_ptr<const ServedScene>, std::less<>> scenes_;
 };
 
-// The scene's picture for lists, a PNG file; nothing if the bake left none or a too large one.
-[[nodiscard]] std::optional<std::string> read_thumbnail(const ServedScene& scene);
+// Pictures that a bake leaves beside a transport, by their files in view/.
+enum class ScenePicture : std::uint8_t {
+    thumbnail,  // for lists
+    materials   // of kind `curves`: which material each pixel shows
+};
+
+inline constexpr text::NameTable<ScenePicture, 2> kScenePictures({{
+    {ScenePicture::thumbnail, "thumbnail.png"},
+    {ScenePicture::materials, "materials.png"},
+}});
+
+// A PNG file; nothing if the bake left none or a too large one.
+[[nodiscard]] std::optional<std::string> read_picture(const ServedScene& scene,
+                                                      ScenePicture picture);
 
 }  // namespace relume::net

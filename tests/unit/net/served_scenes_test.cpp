@@ -111,18 +111,22 @@ TEST_F(ServedScenes, ScenesThatComeChangeAndGoAreFollowed) {
     expect_serves_on();
 }
 
-TEST_F(ServedScenes, ThumbnailsAreServedIfTheBakeLeftThem) {
+TEST_F(ServedScenes, PicturesAreServedIfTheBakeLeftThem) {
     start();
-    EXPECT_EQ(http(port(), "GET", "/api/scenes/tiny/thumbnail.png").status, 404U);
-    EXPECT_EQ(http(port(), "GET", "/api/scenes/none/thumbnail.png").status, 404U);
-    EXPECT_NE(http(port(), "GET", "/api/scenes/tinny/thumbnail.png").body.find("mean tiny?"),
-              std::string::npos);
     fs::create_directory(scenes_.path() / "tiny.relume/view");
-    std::ofstream(scenes_.path() / "tiny.relume/view/thumbnail.png") << "png";
-    const HttpAnswer answer = http(port(), "GET", "/api/scenes/tiny/thumbnail.png");
-    EXPECT_EQ(answer.status, 200U);
-    EXPECT_EQ(answer.body, "png");
-    EXPECT_NE(answer.head.find("Content-Type: image/png"), std::string::npos);
+    for (const std::string file : {"thumbnail.png", "materials.png"}) {
+        const std::string path = "/api/scenes/tiny/" + file;
+        EXPECT_EQ(http(port(), "GET", path).status, 404U);
+        EXPECT_EQ(http(port(), "GET", "/api/scenes/none/" + file).status, 404U);
+        EXPECT_NE(http(port(), "GET", "/api/scenes/tinny/" + file).body.find("mean tiny?"),
+                  std::string::npos);
+        std::ofstream(scenes_.path() / "tiny.relume/view" / file) << file;
+        const HttpAnswer answer = http(port(), "GET", path);
+        EXPECT_EQ(answer.status, 200U);
+        EXPECT_EQ(answer.body, file);
+        EXPECT_NE(answer.head.find("Content-Type: image/png"), std::string::npos);
+    }
+    EXPECT_EQ(http(port(), "GET", "/api/scenes/tiny/albedo.exr").status, 404U);
 }
 
 }  // namespace
