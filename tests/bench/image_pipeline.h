@@ -3,13 +3,8 @@
 
 #include "protocol/relighting/budget.h"
 #include "server/engine/session.h"
-#include "server/net/images/display_table.h"
-#include "server/net/images/frame_composer.h"
-#include "server/net/images/jpeg_encoder.h"
-#include "server/net/images/sky_pixels.h"
 #include "tests/bench/light_drag.h"
-
-#include <tbb/task_group.h>
+#include "tests/support/picture_maker.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,11 +18,6 @@ namespace relume::bench {
 class ImagePipeline {
   public:
     explicit ImagePipeline(std::shared_ptr<const served::Scene> scene);
-    ImagePipeline(const ImagePipeline&) = delete;
-    ImagePipeline& operator=(const ImagePipeline&) = delete;
-    ImagePipeline(ImagePipeline&&) = delete;
-    ImagePipeline& operator=(ImagePipeline&&) = delete;
-    ~ImagePipeline();
 
     // Image `number` of the drag is what the session is to show from now on.
     void turn_light(std::size_t number);
@@ -37,25 +27,18 @@ class ImagePipeline {
     }
     [[nodiscard]] bool exact() const { return session_.exact(); }
     // Waits for the image before, puts this one together and begins to encode it.
-    void begin_encoding();
+    void begin_encoding() { pictures_.begin(session_.sums(), rig_); }
     // Waits for the last JPEG; its bytes.
-    std::size_t finish_encoding();
+    std::size_t finish_encoding() { return pictures_.finish(); }
 
   private:
-    // As images that move are sent (server/net/README.md).
-    static constexpr int kMovingQuality = 80;
-
     std::shared_ptr<const served::Scene> scene_;
     LightDrag drag_;
     engine::Session session_;
-    net::FrameComposer composer_;
-    net::DisplayTable display_;
-    net::JpegEncoder jpeg_;
+    test::PictureMaker pictures_;
     light::LightRig rig_;
     light::LightCubemap cubemap_;
     std::vector<float> coefficients_;
-    std::size_t jpeg_bytes_ = 0;
-    tbb::task_group encoding_;
 };
 
 }  // namespace relume::bench

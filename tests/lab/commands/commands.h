@@ -20,6 +20,7 @@ struct Command {
 [[nodiscard]] Command add_seeds_command(CLI::App& program);
 [[nodiscard]] Command add_light_filter_command(CLI::App& program);
 [[nodiscard]] Command add_bake_noise_command(CLI::App& program);
+[[nodiscard]] Command add_curves_command(CLI::App& program);
 [[nodiscard]] Command add_geometry_command(CLI::App& program);
 [[nodiscard]] Command add_brdf_terms_command(CLI::App& program);
 [[nodiscard]] Command add_cpca_command(CLI::App& program);
