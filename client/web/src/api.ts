@@ -57,6 +57,14 @@ export class Api {
         return `${this.server}/api/scenes/${encodeURIComponent(scene)}/thumbnail.png`;
     }
 
+    /** A grey value a pixel: 0, or one more than the place of its material in the summary. */
+    async materialMap(scene: string): Promise<ImageBitmap> {
+        const path = `/api/scenes/${encodeURIComponent(scene)}/materials.png`;
+        const response = await fetch(this.server + path);
+        if (!response.ok) throw new ApiError(`No map of the materials of ${scene}`);
+        return createImageBitmap(await response.blob(), { colorSpaceConversion: "none" });
+    }
+
     /** As it is now, whatever the browser has kept. */
     async preview(environment: string): Promise<ImageBitmap> {
         const path = `/api/environments/${encodeURIComponent(environment)}/preview.jpg`;

@@ -160,7 +160,8 @@ export class AreaLights {
     private put(id: string, light: AreaLight): string | null {
         const most = this.connection.snapshot?.limits["lights_per_room"] ?? 64;
         const isFull = Object.keys(this.all).length >= most;
-        if (this.connection.status.kind !== "open" || isFull) return null;
+        const isTaken = this.connection.status.kind === "open" && this.connection.takes("lights");
+        if (!isTaken || isFull) return null;
         this.change(id, light);
         this.select(id);
         return id;

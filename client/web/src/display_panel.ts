@@ -1,4 +1,5 @@
 /** How the scene is shown: this viewer's exposure and tone curve, the room's background. */
+import type { FolderApi } from "tweakpane";
 import { hexFromLinear, linearFromHex } from "./colour";
 import type { Exposure } from "./exposure";
 import { stopsText } from "./format";
@@ -20,16 +21,18 @@ export class DisplayPanel {
     };
     private readonly controls: StatePane;
     private readonly backgroundColour: { hidden: boolean };
+    private readonly backgroundFolder: FolderApi;
     private readonly defaultButtons: { hidden: boolean }[];
 
     constructor(
         root: HTMLElement,
-        connection: RoomConnection,
+        private readonly connection: RoomConnection,
         private readonly exposure: Exposure,
     ) {
         this.controls = new StatePane(root, connection, (state) => this.show(state));
         this.defaultButtons = this.addDisplayBindings();
-        this.backgroundColour = this.addBackgroundBindings();
+        this.backgroundFolder = this.controls.pane.addFolder({ title: "Background" });
+        this.backgroundColour = this.addBackgroundBindings(this.backgroundFolder);
         labelFields(root);
         understandKelvin(root);
         exposure.changed.listen(() => this.controls.showSoon());
@@ -63,9 +66,8 @@ export class DisplayPanel {
         return [makeDefault, follow];
     }
 
-    private addBackgroundBindings(): { hidden: boolean } {
+    private addBackgroundBindings(folder: FolderApi): { hidden: boolean } {
         const { model } = this;
-        const folder = this.controls.pane.addFolder({ title: "Background" });
         folder
             .addBinding(model, "background", {
                 label: "show",
@@ -94,6 +96,7 @@ export class DisplayPanel {
         model.tone = display.tone;
         model.background = state.background.mode;
         model.colour = hexFromLinear(state.background.colour);
+        this.backgroundFolder.hidden = !this.connection.takes("background");
         this.backgroundColour.hidden = model.background !== "colour";
         for (const button of this.defaultButtons) button.hidden = !this.exposure.differs;
     }

@@ -16,9 +16,10 @@ const kPixelsPerLine = 33;
 
 export type Turn = Parameters<typeof turned>[1];
 
+/** Nothing happens where the scene's light is frozen. */
 export function turnLight(connection: RoomConnection, turn: Turn): void {
     const quaternion = connection.state?.rotation.quaternion;
-    if (quaternion === undefined) return;
+    if (quaternion === undefined || !connection.takes("rotation")) return;
     connection.edit({ rotation: { quaternion: turned(quaternion, turn) } });
 }
 

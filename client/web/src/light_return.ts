@@ -33,7 +33,7 @@ export class LightReturn {
      * offer that was not taken up stands: the state in between is that of the new room.
      */
     offer(forgotten: Lighting): void {
-        this.offered ??= forgotten;
+        this.offered ??= this.taken(forgotten);
         this.showOffer("The server has begun this room anew", []);
     }
 
@@ -53,7 +53,8 @@ export class LightReturn {
     }
 
     /** Returns whether all of it is in the room. What is not is said in a notice. */
-    async bring(lighting: Lighting): Promise<boolean> {
+    async bring(whole: Lighting): Promise<boolean> {
+        const lighting = this.taken(whole);
         const { missing, problems } = await this.provideMaps(mapsOf(lighting));
         const { state } = this.connection;
         if (state === null) return this.fail(kLostWords, []);
@@ -75,6 +76,13 @@ export class LightReturn {
             `All but the map ${maps} is back. Drop the file on the page once more and it is used`,
             problems,
         );
+    }
+
+    /** What the scene takes edits of: materials of the one, light of the other. */
+    private taken(lighting: Lighting): Lighting {
+        const sections = Object.keys(lighting) as (keyof RoomState)[];
+        const kept = sections.filter((key) => this.connection.takes(key));
+        return Object.fromEntries(kept.map((key) => [key, lighting[key]])) as Lighting;
     }
 
     /** Uploads what the server lacks and this browser has. */

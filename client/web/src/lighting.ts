@@ -101,12 +101,12 @@ export function patchToLighting(from: RoomState, to: Lighting): JsonObject {
         const section = to[key] as JsonObject | undefined;
         if (section === undefined) continue;
         const absent = Object.fromEntries((kAbsent[key] ?? []).map((field) => [field, null]));
-        if (key === "lights") {
-            const gone = Object.keys(from.lights).filter((id) => !(id in section));
+        if (key === "lights" || key === "materials") {
+            const gone = Object.keys(from[key]).filter((id) => !(id in section));
             const there = Object.entries(section as { [id: string]: JsonObject });
             patch[key] = Object.fromEntries<Json>([
                 ...gone.map((id): [string, null] => [id, null]),
-                ...there.map(([id, light]): [string, Json] => [id, { ...absent, ...light }]),
+                ...there.map(([id, entry]): [string, Json] => [id, { ...absent, ...entry }]),
             ]);
         } else {
             patch[key] = { ...absent, ...section };

@@ -31,6 +31,9 @@ const kGestures: Gesture[] = [
     { hand: "Drag a light", words: "move it" },
     { hand: "Wheel on a light", words: "resize it" },
     { hand: "Double-click a light's row", words: "rename it" },
+    { hand: "Click the image, where materials are edited", words: "choose the material" },
+    { hand: "Drag over a curve", words: "draw it, smooth it, or move a control point" },
+    { hand: "Double-click a curve", words: "with points: add or remove one" },
     {
         hand: "Drop a file",
         words: "use an .hdr or .exr as the environment, a .json as the lighting",
@@ -39,6 +42,11 @@ const kGestures: Gesture[] = [
 
 function shortcutsOf(studio: Studio): Shortcut[] {
     const { connection, exposure, lights, environments, downloads, zoom, camera } = studio;
+    const { materials, materialPanel } = studio;
+    const { editor } = materialPanel;
+    const inMaterials = (run: () => void) => (): void => {
+        if (connection.takes("materials") && materials.selected !== null) run();
+    };
     const step = (event: KeyboardEvent): number =>
         event.shiftKey ? kBigTurnDegrees : kTurnDegrees;
     const modes = ["environment", "colour", "transparent"] as const;
@@ -73,7 +81,10 @@ function shortcutsOf(studio: Studio): Shortcut[] {
         {
             keys: ["r", "R"],
             words: "reset the rotation",
-            run: () => connection.edit({ rotation: { quaternion: kIdentity } }),
+            run: () => {
+                if (connection.takes("rotation"))
+                    connection.edit({ rotation: { quaternion: kIdentity } });
+            },
         },
         {
             keys: ["e"],
@@ -100,6 +111,7 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             keys: ["b", "B"],
             words: "background: environment, colour, nothing",
             run: () => {
+                if (!connection.takes("background")) return;
                 const mode = connection.state?.background.mode ?? "environment";
                 const next = modes[(modes.indexOf(mode) + 1) % modes.length] ?? "environment";
                 connection.edit({ background: { mode: next } });
@@ -119,6 +131,34 @@ function shortcutsOf(studio: Studio): Shortcut[] {
             run: () => camera.frameAll(),
         },
         { keys: ["c", "C"], words: "the camera of the file", run: () => camera.reset() },
+        {
+            keys: ["z"],
+            withControl: true,
+            words: "undo the last edit of a material",
+            run: inMaterials(() => materials.history.undo()),
+        },
+        {
+            keys: ["Z", "y"],
+            withControl: true,
+            words: "redo it",
+            run: inMaterials(() => materials.history.redo()),
+        },
+        {
+            keys: ["d", "D"],
+            words: "draw the curve",
+            run: inMaterials(() => editor.choose("draw")),
+        },
+        { keys: ["m", "M"], words: "smooth it", run: inMaterials(() => editor.choose("smooth")) },
+        {
+            keys: ["p", "P"],
+            words: "move its control points",
+            run: inMaterials(() => editor.choose("points")),
+        },
+        {
+            keys: ["g", "G"],
+            words: "linear or logarithmic values",
+            run: inMaterials(() => editor.toggleAxis()),
+        },
         { keys: ["f"], words: "fit the image, or one to one", run: () => zoom.toggleActual() },
         { keys: ["F"], words: "full screen", run: toggleFullScreen },
         { keys: ["+", "="], words: "zoom in", run: () => zoom.step(1) },

@@ -79,6 +79,11 @@ export class RoomConnection {
         return this.shared !== null && !this.shared.hasPending;
     }
 
+    /** Whether edits of a section are taken; an older server does not say, and takes all. */
+    takes(section: keyof RoomState): boolean {
+        return this.snapshot?.scene.edits?.includes(section) ?? true;
+    }
+
     connect(): void {
         clearTimeout(this.timer);
         this.setStatus({ kind: "connecting", words: "Connecting" });

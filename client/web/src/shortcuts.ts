@@ -4,6 +4,8 @@ import { isTyping, make } from "./dom";
 export interface Shortcut {
     /** As KeyboardEvent.key has them; all do the same. */
     keys: string[];
+    /** With Ctrl or, on a Mac, Command. */
+    withControl?: boolean;
     words: string;
     run: (event: KeyboardEvent) => void;
 }
@@ -23,13 +25,17 @@ const kKeyWords = new Map([
 
 export function listenForShortcuts(shortcuts: Shortcut[]): void {
     window.addEventListener("keydown", (event) => {
-        if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
+        if (event.altKey || isTyping(event.target)) return;
         if (document.querySelector("dialog[open]") !== null) return;
         // Arrows inside a list or a panel move the focus there, not the light.
         const inPanel =
             event.target instanceof Element && event.target.closest(".panel") !== null;
         if (inPanel && event.key.startsWith("Arrow")) return;
-        const shortcut = shortcuts.find(({ keys }) => keys.includes(event.key));
+        const isWithControl = event.ctrlKey || event.metaKey;
+        const shortcut = shortcuts.find(
+            ({ keys, withControl = false }) =>
+                keys.includes(event.key) && withControl === isWithControl,
+        );
         if (shortcut === undefined) return;
         event.preventDefault();
         shortcut.run(event);
@@ -53,9 +59,10 @@ export function fillHelp(root: HTMLElement, gestures: Gesture[], shortcuts: Shor
                 ]),
             ),
         );
-    const key = (name: string): Node => {
+    const key = (name: string, withControl = false): Node => {
         const words = /^[A-Z]$/.test(name) ? `Shift ${name}` : name.toUpperCase();
-        return make("kbd", "", {}, kKeyWords.get(name) ?? words);
+        const prefix = withControl ? "Ctrl " : "";
+        return make("kbd", "", {}, prefix + (kKeyWords.get(name) ?? words));
     };
     root.replaceChildren(
         list(
@@ -64,8 +71,10 @@ export function fillHelp(root: HTMLElement, gestures: Gesture[], shortcuts: Shor
         ),
         list(
             "Keys",
-            shortcuts.map(({ keys, words }) => [
-                keys.filter((name) => !/^[A-Z]$/.test(name) || keys.length === 1).map(key),
+            shortcuts.map(({ keys, withControl, words }) => [
+                keys
+                    .filter((name) => !/^[A-Z]$/.test(name) || keys.length === 1)
+                    .map((name) => key(name, withControl)),
                 words,
             ]),
         ),

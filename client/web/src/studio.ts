@@ -20,6 +20,9 @@ import { LightMap } from "./light_map";
 import { LightReturn } from "./light_return";
 import { type Lighting, wholeLightingOf } from "./lighting";
 import { LightsPanel } from "./lights_panel";
+import { editsMaterials, MaterialPanel } from "./material_panel";
+import { MaterialPicker } from "./material_picker";
+import { Materials } from "./materials";
 import type { Notices } from "./notices";
 import { medianRadiance } from "./median_radiance";
 import { type Place, subprotocols } from "./place";
@@ -48,6 +51,8 @@ export class Studio {
     readonly downloads: Downloads;
     readonly zoom: ImageZoom;
     readonly camera: CameraPanel;
+    readonly materials: Materials;
+    readonly materialPanel: MaterialPanel;
     private readonly decoder: ImageDecoder;
     private readonly readouts: Readouts;
     private readonly timer = new EditTimer();
@@ -112,6 +117,13 @@ export class Studio {
             connection,
             (event) => event.altKey || event.ctrlKey,
         );
+        this.materials = new Materials(connection);
+        this.materialPanel = new MaterialPanel(
+            byId("materials-card"),
+            connection,
+            this.materials,
+        );
+        new MaterialPicker(byId("image-frame"), api, connection, this.materials);
         const uploads = new UploadStore(place.server);
         this.lightReturn = new LightReturn(connection, api, uploads, notices, () =>
             this.loadEnvironments(),
@@ -186,6 +198,7 @@ export class Studio {
         const { connection } = this;
         connection.opened.listen(({ snapshot: { scene, room }, forgotten }) => {
             byId("stage").dataset["camera"] = String(movingBounds(connection) !== null);
+            this.showWhatIsEdited();
             this.decoder.clear();
             this.timer.clear();
             this.readouts.clear();
@@ -236,6 +249,16 @@ export class Studio {
             this.timer.editConfirmed(id, revision),
         );
         connection.editDropped.listen((id) => this.timer.editDropped(id));
+    }
+
+    /** Materials or light: the panels of the other are not there. */
+    private showWhatIsEdited(): void {
+        const materials = editsMaterials(this.connection);
+        document.body.classList.toggle("edits-materials", materials);
+        byId("materials-card").hidden = !materials;
+        for (const id of ["environment-panel", "light-card"]) {
+            byId(id).hidden = !this.connection.takes("environment");
+        }
     }
 
     private listenForFiles(uploads: UploadStore): void {

@@ -1,12 +1,36 @@
 /** Text frames of the connection, server to client [protocol/README.md §3.1]. */
 import { errorWords } from "./error_code";
 import { isObject } from "./merge_patch";
-import type { CameraState, Json, JsonObject, RoomState, Triple } from "./state";
+import type {
+    CameraState,
+    Json,
+    JsonObject,
+    MaterialEdit,
+    MaterialsShape,
+    RoomState,
+    Triple,
+} from "./state";
 
 /** A sphere around all that a scene shows, in the world. */
 export interface SceneBounds {
     centre: Triple;
     radius: number;
+}
+
+/** A material whose curve and diffuse colour people edit, in scenes of kind `curves`. */
+export interface EditableMaterial {
+    /** Its key in the state's section `materials`. */
+    id: string;
+    /** In the scene's file. */
+    name: string;
+    /** That is edited, such as `distribution`. */
+    curve: string;
+    /** Over which the curve runs, such as `half`. */
+    angle: string;
+    shapes: MaterialsShape[];
+    presets: string[];
+    /** What it is without an edit. */
+    baked: MaterialEdit;
 }
 
 export interface SceneSummary {
@@ -20,6 +44,8 @@ export interface SceneSummary {
     camera?: CameraState;
     /** Where the camera can move. */
     bounds?: SceneBounds;
+    /** Of kind `curves`. */
+    materials?: EditableMaterial[];
     /** The sections of the state that take edits. */
     edits?: string[];
 }
@@ -61,6 +87,9 @@ export interface Viewers {
 export type ServerMessage = Snapshot | Change | Refusal | Viewers;
 
 export const kProtocolVersion = 1;
+
+/** Of a curve: sample k stands at u = k/255. */
+export const kCurveSamples = 256;
 
 export class WireError extends Error {
     override readonly name = "WireError";
@@ -116,6 +145,41 @@ function tripleAt(object: JsonObject, key: string): Triple {
     return value as Triple;
 }
 
+function textsAt(object: JsonObject, key: string): string[] {
+    const value = object[key];
+    if (!Array.isArray(value) || !value.every((text) => typeof text === "string")) {
+        throw new WireError(`"${key}" is ${JSON.stringify(value)}, expected strings`);
+    }
+    return value as string[];
+}
+
+function materialFromJson(json: Json): EditableMaterial {
+    if (!isObject(json)) {
+        throw new WireError(`a material is ${JSON.stringify(json)}, expected an object`);
+    }
+    const baked = objectAt(json, "baked");
+    const { samples } = baked;
+    const isCurve =
+        Array.isArray(samples) &&
+        samples.length === kCurveSamples &&
+        samples.every((rgb) => Array.isArray(rgb) && rgb.length === 3);
+    if (!isCurve) {
+        throw new WireError(
+            `"samples" of a material are ${JSON.stringify(samples)?.slice(0, 60)}, ` +
+                `expected ${kCurveSamples} of three numbers`,
+        );
+    }
+    return {
+        id: textAt(json, "id"),
+        name: textAt(json, "name"),
+        curve: textAt(json, "curve"),
+        angle: textAt(json, "angle"),
+        shapes: textsAt(json, "shapes") as MaterialsShape[],
+        presets: textsAt(json, "presets"),
+        baked: baked as unknown as MaterialEdit,
+    };
+}
+
 /** What an older server does not say is left out. */
 function sceneFromJson(json: JsonObject): SceneSummary {
     const scene: SceneSummary = {
@@ -124,7 +188,7 @@ function sceneFromJson(json: JsonObject): SceneSummary {
         height: numberAt(json, "height"),
         face_resolution: numberAt(json, "face_resolution"),
     };
-    const { bake_error: bakeError, bounds, camera, edits } = json;
+    const { bake_error: bakeError, bounds, camera, edits, materials } = json;
     if (typeof bakeError === "number") scene.bake_error = bakeError;
     if (isObject(bounds)) {
         scene.bounds = {
@@ -140,6 +204,7 @@ function sceneFromJson(json: JsonObject): SceneSummary {
             fov_degrees: numberAt(camera, "fov_degrees"),
         };
     }
+    if (Array.isArray(materials)) scene.materials = materials.map(materialFromJson);
     if (Array.isArray(edits)) {
         scene.edits = edits.filter((section): section is string => typeof section === "string");
     }

@@ -1,0 +1,136 @@
+/** The scene's materials: which one is edited, its curve, and all that moves it. */
+import { CurveEditor } from "./curve_editor";
+import { make, setText } from "./dom";
+import { MaterialControls } from "./material_controls";
+import { MaterialSphere } from "./material_sphere";
+import type { Materials } from "./materials";
+import { onceAFrame } from "./once_a_frame";
+import type { RoomConnection } from "./room_connection";
+
+/** Whether people edit materials in the connection's scene. */
+export function editsMaterials(connection: RoomConnection): boolean {
+    const scene = connection.snapshot?.scene;
+    return scene?.edits?.includes("materials") === true && (scene.materials ?? []).length > 0;
+}
+
+export class MaterialPanel {
+    readonly editor: CurveEditor;
+    private readonly list = make("ul", "material-list", { "aria-label": "Materials" });
+    private readonly presets = make("div", "material-presets", {
+        role: "group",
+        "aria-label": "Presets",
+    });
+    private readonly title = make("h3", "curve-title");
+    private readonly sphere = new MaterialSphere();
+    private readonly buttons: { undo: HTMLButtonElement; redo: HTMLButtonElement };
+    private readonly reset: HTMLButtonElement;
+    private readonly showSoon = onceAFrame(() => this.show());
+    private drawn = "";
+
+    constructor(
+        root: HTMLElement,
+        private readonly connection: RoomConnection,
+        private readonly materials: Materials,
+    ) {
+        const { history } = materials;
+        const action = (title: string, words: string, act: () => void): HTMLButtonElement => {
+            const button = make("button", "small-button", { type: "button", title: words }, title);
+            button.addEventListener("click", act);
+            return button;
+        };
+        this.buttons = {
+            undo: action("Undo", "Undo the last edit (Ctrl Z)", () => history.undo()),
+            redo: action("Redo", "Redo (Ctrl Shift Z)", () => history.redo()),
+        };
+        this.reset = action("As baked", "Take the edits of this material back", () =>
+            materials.reset(),
+        );
+        const curve = make("div", "curve-editor");
+        const controls = make("div", "material-controls");
+        root.append(
+            make(
+                "div",
+                "card-head",
+                {},
+                make("h2", "", {}, "Materials"),
+                make(
+                    "div",
+                    "material-actions",
+                    {},
+                    this.buttons.undo,
+                    this.buttons.redo,
+                    this.reset,
+                ),
+            ),
+            make("div", "material-choice", {}, this.list, this.sphere.element),
+            this.title,
+            curve,
+            this.presets,
+            controls,
+        );
+        this.editor = new CurveEditor(curve, connection, materials);
+        new MaterialControls(controls, connection, materials);
+        connection.stateChanged.listen(() => this.showSoon());
+        connection.statusChanged.listen(() => this.showSoon());
+        materials.selectionChanged.listen(() => this.showSoon());
+        history.changed.listen(() => this.showSoon());
+    }
+
+    private show(): void {
+        const { selected, edit, history } = this.materials;
+        if (selected === null || edit === null) return;
+        const isOpen = this.connection.status.kind === "open";
+        this.buttons.undo.disabled = !isOpen || !history.canUndo;
+        this.buttons.redo.disabled = !isOpen || !history.canRedo;
+        this.reset.disabled = !isOpen || !this.materials.isEdited(selected.id);
+        setText(this.title, `${selected.name}: ${selected.curve.replace("_", " ")}`);
+        this.drawLists();
+        this.sphere.draw(selected, edit);
+    }
+
+    /** Rows stay under the pointer while somebody draws. */
+    private drawLists(): void {
+        const { all, selected } = this.materials;
+        const key = JSON.stringify([
+            all.map(({ id }) => [id, this.materials.isEdited(id)]),
+            selected?.id,
+            selected?.presets,
+        ]);
+        if (key === this.drawn) return;
+        this.drawn = key;
+        const hadFocus = this.list.contains(document.activeElement);
+        this.list.replaceChildren(
+            ...all.map(({ id, name }) => {
+                const isEdited = this.materials.isEdited(id);
+                const row = make(
+                    "button",
+                    "material-row",
+                    {
+                        type: "button",
+                        "data-material": id,
+                        "aria-pressed": String(id === selected?.id),
+                    },
+                    make("span", "material-name", {}, name),
+                    make("span", "material-state", {}, isEdited ? "edited" : ""),
+                );
+                row.addEventListener("click", () => this.materials.select(id));
+                return make("li", "", {}, row);
+            }),
+        );
+        if (hadFocus && selected !== null) {
+            this.list.querySelector<HTMLElement>('[aria-pressed="true"]')?.focus();
+        }
+        this.presets.replaceChildren(
+            ...(selected?.presets ?? []).map((preset) => {
+                const button = make(
+                    "button",
+                    "small-button",
+                    { type: "button", "data-preset": preset },
+                    preset,
+                );
+                button.addEventListener("click", () => this.materials.setPreset(preset));
+                return button;
+            }),
+        );
+    }
+}
