@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::uint32_t kMostNmfRows = 129;
 constexpr std::uint32_t kNmfColumns = 128;
+// Where no sum meets the target, terms are taken as long as those that are left would lower the
+// error by this part of it or more.
+constexpr double kLeastGain = 0.1;
 
 void require_usable(const BrdfLobes& lobes, const FactorOptions& options) {
     if (lobes.count() < 1 || lobes.count() > brdf::FactoredBrdf::kMostLobes) {
@@ -57,18 +60,25 @@ std::size_t chosen_terms(const Candidates& candidates, const FactorOptions& opti
     if (options.terms) {
         return std::min<std::size_t>(*options.terms, available);
     }
-    std::size_t largest = 1;
-    for (std::size_t k = 1;
-         k <= std::min<std::size_t>(available, FactorOptions::kMostChosenTerms); ++k) {
-        if (candidates.tears_pair[k - 1]) {
-            continue;
+    const auto most = std::min<std::size_t>(available, FactorOptions::kMostChosenTerms);
+    const auto smallest_below = [&](double error) -> std::size_t {
+        for (std::size_t k = 1; k <= most; ++k) {
+            if (!candidates.tears_pair[k - 1] && candidates.errors[k - 1] <= error) {
+                return k;
+            }
         }
-        largest = k;
-        if (candidates.errors[k - 1] <= options.target_error) {
-            break;
-        }
+        return 0;
+    };
+    if (const std::size_t terms = smallest_below(options.target_error); terms > 0) {
+        return terms;
     }
-    return largest;
+    std::size_t last = most;
+    while (last > 1 && candidates.tears_pair[last - 1]) {
+        --last;
+    }
+    // A first term that tears a pair is taken where nothing else can be.
+    return std::max<std::size_t>(smallest_below(candidates.errors[last - 1] / (1 - kLeastGain)),
+                                 1);
 }
 
 double relative_root(double square, double whole) {

@@ -50,10 +50,10 @@ struct Factorisation {
     double negative_norm = 0;
 };
 
-// Chooses the smallest number of terms that meets the target, at most 10; where none does, the
-// largest that tears no pair. A constant BRDF gets its one term exactly. Throws FactorError for
-// options out of range, and for NMF of a highlight that its grid of 129 rows cannot tell.
-// Deterministic; uses all cores. Memory: at most 450 MiB by SVD, 100 MiB by NMF.
+// Chooses the fewest terms that meet the target, at most 10 and no torn pair; where none do, the
+// fewest from which all further ones up to 10 would take less than a tenth of the error. A
+// constant BRDF gets its one term exactly. Throws FactorError for options out of range, and for
+// NMF of a highlight that 129 rows cannot tell. Deterministic; at most 450 MiB, on all cores.
 [[nodiscard]] Factorisation factorise(std::string name,
                                       const BrdfLobes& lobes,
                                       const FactorOptions& options = {});
