@@ -7,9 +7,11 @@
 #include "precompute/bake/mesh/mesh_subject.h"
 #include "precompute/bake/peak_memory.h"
 #include "precompute/bake/version.h"
+#include "protocol/base/program/usage.h"
 #include "protocol/base/timing/stopwatch.h"
 #include "protocol/transport/transport_writer.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
@@ -100,9 +102,10 @@ transport::ShardPlan plan_of(std::span<const ShardClusters> shards) {
 
 std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
                                           const BakeParameters& parameters,
+                                          std::span<const MeasuredBrdf> measured,
                                           const BakeHooks& hooks) {
     if (parameters.receivers == ReceiverKind::vertices) {
-        return std::make_unique<MeshSubject>(caster, parameters, hooks.should_stop);
+        return std::make_unique<MeshSubject>(caster, parameters, measured, hooks.should_stop);
     }
     return std::make_unique<ImageSubject>(caster, parameters);
 }
@@ -112,11 +115,12 @@ class Bake {
     Bake(const scene::Scene& scene,
          const BakeParameters& parameters,
          const std::filesystem::path& directory,
+         std::span<const MeasuredBrdf> measured,
          const BakeHooks& hooks)
         : parameters_(parameters),
           directory_(directory),
           caster_(scene),
-          subject_(make_subject(caster_, parameters, hooks)),
+          subject_(make_subject(caster_, parameters, measured, hooks)),
           texels_(parameters.face_resolution, parameters.seed),
           tracer_(caster_, parameters_),
           traced_(subject_->receivers(), tracer_, parameters_),
@@ -132,6 +136,9 @@ class Bake {
         manifest_.bake = json_from_parameters(parameters);
         manifest_.bake["scene"] = scene.name;
         manifest_.bake["triangles"] = scene.triangle_count();
+        for (const MeasuredBrdf& one : measured) {
+            manifest_.bake["measured"][one.material] = one.file.filename().string();
+        }
     }
 
     BakeSummary run() {
@@ -262,13 +269,23 @@ class Bake {
 BakeSummary bake(const scene::Scene& scene,
                  const BakeParameters& parameters,
                  const std::filesystem::path& directory,
-                 const BakeHooks& hooks) {
+                 const BakeHooks& hooks,
+                 std::span<const MeasuredBrdf> measured) {
     check_parameters(parameters);
+    if (!measured.empty() && parameters.receivers != ReceiverKind::vertices) {
+        throw program::UsageError(fmt::format(
+            "'{}' is to reflect as was measured: expected receivers that are vertices",
+            measured.front().material));
+    }
     std::optional<tbb::global_control> limit;
     if (parameters.threads > 0) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, parameters.threads);
     }
-    return Bake(scene, parameters, directory, hooks).run();
+    if (measured.empty()) {
+        return Bake(scene, parameters, directory, measured, hooks).run();
+    }
+    const scene::Scene seen_by_paths = scene_with_albedos(scene, measured);
+    return Bake(seen_by_paths, parameters, directory, measured, hooks).run();
 }
 
 }  // namespace relume::bake

@@ -1,12 +1,14 @@
 // From a scene to a transport directory.
 #pragma once
 
+#include "precompute/bake/base/measured_brdf.h"
 #include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 
 namespace relume::bake {
 
@@ -47,12 +49,14 @@ struct BakeSummary {
 // Bakes an image of the scene seen by its own camera into `directory`, which is made or
 // continued: shards of a bake of the same inputs that was interrupted are kept. The same inputs
 // give the same bytes on any number of threads. Memory stays bounded by a shard's rows of paths
-// and the non-zero values of the blocks in work. Throws BakeError, BakeInterrupted,
-// scene::SceneError, transport::TransportError,
-// files::FileError, program::UsageError.
+// and the non-zero values of the blocks in work. Of receivers that are vertices, `measured`
+// BRDFs take the place of what the scene says of their materials. Throws BakeError,
+// BakeInterrupted, scene::SceneError, transport::TransportError, files::FileError,
+// program::UsageError.
 BakeSummary bake(const scene::Scene& scene,
                  const BakeParameters& parameters,
                  const std::filesystem::path& directory,
-                 const BakeHooks& hooks = {});
+                 const BakeHooks& hooks = {},
+                 std::span<const MeasuredBrdf> measured = {});
 
 }  // namespace relume::bake

@@ -84,6 +84,11 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--factors", p.factor_method,
                    "How BRDFs are factored: svd, or nmf, in which nothing is negative [svd]")
         ->transform(CLI::CheckedTransformer(factor_methods).description(""));
+    app.add_option("--measured", arguments.measured,
+                   "MATERIAL=FILE: the material reflects as was measured, by a .binary file of "
+                   "the MERL database; may be given again")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--threads", p.threads, "Threads; 0: one per core")->capture_default_str();
     app.add_option("--seed", p.seed, "Chooses all random numbers")->capture_default_str();
 }

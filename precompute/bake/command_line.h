@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace relume::bake {
 
@@ -25,6 +26,7 @@ struct Arguments {
     bool list_cameras = false;
     std::string preview;
     std::optional<std::uint32_t> order;  // of spherical harmonics
+    std::vector<std::string> measured;   // MATERIAL=FILE
     BakeParameters parameters;
     // info, verify, relight
     std::string directory;

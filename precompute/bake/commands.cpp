@@ -174,6 +174,10 @@ int run_bake(const Arguments& arguments) {
         parameters.order = *arguments.order;
     }
     check_parameters(parameters);
+    std::vector<MeasuredBrdf> measured;
+    for (const std::string& words : arguments.measured) {
+        measured.push_back(read_measured_brdf(words));
+    }
     if (!arguments.preview.empty()) {
         const scene::Scene scene = scene_of(arguments, parameters);
         print_notes(scene.report);
@@ -195,7 +199,7 @@ int run_bake(const Arguments& arguments) {
         const BakeHooks hooks{
             .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
             .should_stop = [] { return stop_requested.load(); }};
-        summary = bake(scene, parameters, output.path(), hooks);
+        summary = bake(scene, parameters, output.path(), hooks, measured);
     }
     write_report(output.path(), report_from(scene, parameters, summary));
     const nlohmann::json description = describe(output.path());

@@ -1,6 +1,7 @@
 #include "precompute/bake/mesh/mesh_materials.h"
 
 #include "precompute/factors/brdf_lobes.h"
+#include "precompute/factors/merl_brdf.h"
 #include "precompute/scene/shown_text.h"
 
 #include <fmt/format.h>
@@ -85,19 +86,46 @@ class MaterialReader {
         const scene::Bsdf mean = mean_bsdf();
         factors::Factorisation factored =
             factors::factorise(shown_name(material_.name), mean, options);
-        transport::MaterialRecord record{
-            .name = material_.name,
-            .brdf = static_cast<std::uint32_t>(out_.factored.size()),
-            .lobes = {}};
+        std::vector<transport::LobeRecord> lobes;
         for (std::uint32_t lobe = 0; lobe < factored.brdf.lobes; ++lobe) {
-            record.lobes.push_back(lobe_record(lobe));
+            lobes.push_back(lobe_record(lobe));
         }
-        out_.records.push_back(std::move(record));
-        out_.factored.push_back(std::move(factored));
+        add(std::move(factored), std::move(lobes));
+        note_what_is_lost();
+    }
+
+    void read(const MeasuredBrdf& measured, const factors::FactorOptions& options) {
+        const factors::BrdfLobes lobes = factors::lobes_of(measured.brdf);
+        std::vector<transport::LobeRecord> records;
+        for (const Imath::V3f& colour : lobes.mean_colours) {
+            records.push_back({.colour = colour, .texture = {}});
+        }
+        add(factors::factorise(shown_name(material_.name), lobes, options), std::move(records));
+        note(
+            fmt::format("reflects as {} was measured; light that comes from it to others is "
+                        "that of a matte surface of its mean colour",
+                        measured.file.string()));
+        if (const std::size_t count = measured.brdf.unmeasured_count(); count > 0) {
+            note(
+                fmt::format("{} of {} values of {} are negative, which says that nothing was "
+                            "measured, and count as 0",
+                            count, 3 * factors::MerlBrdf::kCells, measured.file.string()));
+        }
         note_what_is_lost();
     }
 
   private:
+    void add(factors::Factorisation factored, std::vector<transport::LobeRecord> lobes) {
+        out_.records.push_back({.name = material_.name,
+                                .brdf = static_cast<std::uint32_t>(out_.factored.size()),
+                                .lobes = std::move(lobes)});
+        out_.factored.push_back(std::move(factored));
+    }
+
+    void note(const std::string& what) {
+        out_.notes.push_back(fmt::format("material '{}': {}", material_.name, what));
+    }
+
     [[nodiscard]] scene::Bsdf bsdf_at(const Imath::V2f& uv) const {
         scene::PointUvs uvs;
         uvs.of_set.fill(uv);
@@ -152,9 +180,6 @@ class MaterialReader {
     }
 
     void note_what_is_lost() {
-        const auto note = [&](const char* what) {
-            out_.notes.push_back(fmt::format("material '{}': {}", material_.name, what));
-        };
         if (shape_varies_) {
             note("its roughness varies, and is taken as its median");
         }
@@ -172,7 +197,7 @@ class MaterialReader {
             scene_.meshes.begin(), scene_.meshes.end(), [&](const scene::Mesh& mesh) {
                 return !mesh.colours.empty() && &scene_.materials[mesh.material] == &material_;
             });
-        if (has_colours && material_.model != scene::BsdfModel::lambert) {
+        if (has_colours && out_.factored.back().brdf.lobes > 1) {
             note("colours of vertices dye its highlights as well");
         }
     }
@@ -195,10 +220,17 @@ std::vector<brdf::FactoredBrdf> MeshMaterials::brdfs() const {
     return brdfs;
 }
 
-MeshMaterials mesh_materials(const scene::Scene& scene, const factors::FactorOptions& options) {
+MeshMaterials mesh_materials(const scene::Scene& scene,
+                             std::span<const MeasuredBrdf> measured,
+                             const factors::FactorOptions& options) {
     MeshMaterials materials;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        MaterialReader(scene, i, materials).read(options);
+        MaterialReader reader(scene, i, materials);
+        if (const auto* brdf = measured_brdf_of(measured, scene.materials[i].name)) {
+            reader.read(*brdf, options);
+        } else {
+            reader.read(options);
+        }
     }
     return materials;
 }

@@ -5,6 +5,7 @@
 #include "precompute/bake/probes/light_probe.h"
 #include "precompute/bake/receivers/vertex/refinement.h"
 #include "precompute/bake/view_files.h"
+#include "protocol/transport/hash.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +14,11 @@
 namespace relume::bake {
 namespace {
 
-MeshMaterials materials_of(const scene::Scene& scene, const BakeParameters& parameters) {
+MeshMaterials materials_of(const scene::Scene& scene,
+                           const BakeParameters& parameters,
+                           std::span<const MeasuredBrdf> measured) {
     return mesh_materials(
-        scene,
+        scene, measured,
         {.method = parameters.factor_method,
          .light = parameters.factor_method == factors::Method::svd
                       ? factors::LightModel::natural
@@ -30,6 +33,18 @@ std::vector<const brdf::FactoredBrdf*> brdfs_of(const MeshMaterials& materials) 
         brdfs.push_back(&factored.brdf);
     }
     return brdfs;
+}
+
+// 0 where nothing is measured.
+std::uint64_t hash_of(std::span<const MeasuredBrdf> measured) {
+    std::uint64_t hash = 0;
+    for (const MeasuredBrdf& one : measured) {
+        for (const char letter : one.material) {
+            hash = transport::mix_bits(hash ^ static_cast<unsigned char>(letter));
+        }
+        hash = transport::mix_bits(hash ^ one.content_hash);
+    }
+    return hash;
 }
 
 RefinedSurface refined(const RayCaster& caster,
@@ -53,11 +68,13 @@ RefinedSurface refined(const RayCaster& caster,
 
 MeshSubject::MeshSubject(const RayCaster& caster,
                          const BakeParameters& parameters,
+                         std::span<const MeasuredBrdf> measured,
                          const std::function<bool()>& should_stop)
     : scene_(caster.scene()),
       parameters_(parameters),
+      measured_hash_(hash_of(measured)),
       camera_(scene_.camera, parameters.width, parameters.height),
-      materials_(materials_of(scene_, parameters)),
+      materials_(materials_of(scene_, parameters, measured)),
       surface_(refined(caster, materials_, parameters, should_stop)),
       vertices_(scene_, surface_, brdfs_of(materials_)) {}
 
@@ -85,7 +102,8 @@ void MeshSubject::describe(transport::Manifest& manifest) const {
                        .forward = camera_.forward(),
                        .tan_half_width = camera_.tan_half_width(),
                        .tan_half_height = camera_.tan_half_height()};
-    manifest.fingerprint = fingerprint_of(scene_, camera_, parameters_, manifest.generator);
+    manifest.fingerprint =
+        fingerprint_of(scene_, camera_, parameters_, manifest.generator) ^ measured_hash_;
 }
 
 nlohmann::json MeshSubject::measured() const {

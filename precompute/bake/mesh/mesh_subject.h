@@ -14,10 +14,12 @@ namespace relume::bake {
 class MeshSubject final : public BakeSubject {
   public:
     // Factors the materials and refines the surface, which takes a part of the bake's time.
-    // Keeps a reference to the caster. `should_stop` is asked between rounds. Throws BakeError,
-    // BakeInterrupted, factors::FactorError, scene::SceneError.
+    // Materials of the caster's scene that are measured have their albedo in it
+    // (base/measured_brdf.h). Keeps a reference to the caster. `should_stop` is asked between
+    // rounds. Throws BakeError, BakeInterrupted, factors::FactorError, scene::SceneError.
     MeshSubject(const RayCaster& caster,
                 const BakeParameters& parameters,
+                std::span<const MeasuredBrdf> measured,
                 const std::function<bool()>& should_stop);
 
     [[nodiscard]] const Receivers& receivers() const override { return vertices_; }
@@ -37,6 +39,7 @@ class MeshSubject final : public BakeSubject {
   private:
     const scene::Scene& scene_;
     BakeParameters parameters_;
+    std::uint64_t measured_hash_ = 0;
     scene::Camera camera_;
     MeshMaterials materials_;
     RefinedSurface surface_;
