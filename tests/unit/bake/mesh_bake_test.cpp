@@ -221,5 +221,111 @@ TEST_F(MeshBake, RefusesFewerVerticesThanTheSceneHas) {
         program::UsageError);
 }
 
+// What files hold that nobody would draw: each is baked, whole, and shows finite values.
+struct OddScene {
+    const char* name;
+    std::size_t triangles;  // of the surface before it is refined, both sides
+    scene::Mesh (*mesh)();
+};
+
+scene::Mesh one_triangle() {
+    scene::Mesh mesh;
+    mesh.positions = {{-1, 0, 1}, {1, 0, 1}, {0, 0, -1}};
+    mesh.triangles = {{0, 1, 2}};
+    return mesh;
+}
+
+// Three pages at one edge.
+scene::Mesh not_a_manifold() {
+    scene::Mesh mesh;
+    mesh.positions = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+    return mesh;
+}
+
+// A triangle, the same again, one on a line, one with a corner twice.
+scene::Mesh without_area() {
+    scene::Mesh mesh = one_triangle();
+    mesh.positions.push_back({0, 0, 1});
+    mesh.triangles.insert(mesh.triangles.end(), {{0, 1, 2}, {0, 3, 1}, {0, 1, 1}});
+    return mesh;
+}
+
+// Of three normals one is none.
+scene::Mesh missing_normals() {
+    scene::Mesh mesh = one_triangle();
+    mesh.normals = {{0, 1, 0}, {0, 0, 0}, {0, 1, 0}};
+    return mesh;
+}
+
+class OddMeshBake : public testing::TestWithParam<OddScene> {};
+
+TEST_P(OddMeshBake, IsWholeAndFinite) {
+    scene::Scene scene;
+    scene.name = GetParam().name;
+    scene.materials.push_back({.name = "white"});
+    scene.meshes.push_back(GetParam().mesh());
+    scene.camera = {.name = "above",
+                    .eye = {0.3F, 2, 1},
+                    .look_at = {0, 0.2F, 0},
+                    .vertical_fov_degrees = 60};
+    finish_scene(scene);
+    const test::ScratchDirectory scratch;
+    const fs::path directory = scratch.path() / "odd.relume";
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.vertices = 200;
+    bake(scene, parameters, directory);
+    EXPECT_TRUE(find_faults(directory).empty());
+    const auto transport = transport::Transport::open(directory);
+    EXPECT_GE(transport->surface()->mesh.triangles.size(), GetParam().triangles);
+    const DenseImage seen = relight(*transport, sky_of(8, 0.5F));
+    double covered = 0;
+    double sum = 0;
+    for (std::size_t pixel = 0; pixel < seen.coverage.size(); ++pixel) {
+        covered += double{seen.coverage[pixel]};
+        for (const auto& plane : seen.rgb) {
+            ASSERT_TRUE(std::isfinite(plane[pixel]));
+            sum += plane[pixel];
+        }
+    }
+    EXPECT_GT(covered, 10);
+    EXPECT_GT(sum, 0.3 * covered);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes,
+                         OddMeshBake,
+                         testing::Values(OddScene{"one_triangle", 2, one_triangle},
+                                         OddScene{"not_a_manifold", 6, not_a_manifold},
+                                         OddScene{"without_area", 2, without_area},
+                                         OddScene{"missing_normals", 2, missing_normals}),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+// One term cannot hold a sharp highlight: it is baked as was asked for, and the report says how
+// far off it is and that the target is missed.
+TEST_F(MeshBake, TooFewTermsAreBakedAndTold) {
+    scene::Scene scene = scene::build_builtin_scene("plane");
+    scene.materials[0] = {.name = "gloss",
+                          .model = scene::BsdfModel::phong,
+                          .base_colour = {0.1F, 0.1F, 0.1F},
+                          .specular = {0.6F, 0.6F, 0.6F},
+                          .exponent = 60};
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.bounces = 0;
+    parameters.vertices = 100;
+    parameters.terms = 1;
+    const auto transport = baked(scene, parameters, "plane.relume");
+    const nlohmann::json brdf = transport->manifest().measured.at("brdfs").at(0);
+    EXPECT_EQ(brdf.at("terms"), 1);
+    EXPECT_FALSE(brdf.at("meets_target").get<bool>());
+    EXPECT_GT(brdf.at("error").get<double>(), 0.3);
+    EXPECT_EQ(brdf.at("error"), brdf.at("error_of_terms").at(0));
+    const DenseImage seen = relight(*transport, sky_of(8, 0.9F));
+    for (const auto& plane : seen.rgb) {
+        for (const double value : plane) {
+            ASSERT_TRUE(std::isfinite(value));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace relume::bake

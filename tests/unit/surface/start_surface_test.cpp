@@ -161,13 +161,36 @@ TEST(StartSurface, TooFewVerticesAreRefusedWithBothNumbers) {
     EXPECT_NE(by_points.find("MB"), std::string::npos) << by_points;
 }
 
-// A million triangles over four points: found too many before anything is made of them.
+// Ten million triangles, as a scan has them: refused before anything is made of them but a list
+// of their points, and told what memory so large a surface would take.
+TEST(StartSurface, TenMillionTrianglesAreRefusedWithTheirMemory) {
+    constexpr std::uint32_t kSide = 2237;  // 2236² squares of two triangles
+    scene::Scene scene = scene_of({{}});
+    scene::Mesh& mesh = scene.meshes[0];
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+        mesh.positions.emplace_back(static_cast<float>(i % kSide), 0,
+                                    static_cast<float>(i / kSide));
+    }
+    for (std::uint32_t i = 0; i < kSide * (kSide - 1); ++i) {
+        if (i % kSide != kSide - 1) {
+            mesh.triangles.push_back({i, i + 1, i + kSide});
+            mesh.triangles.push_back({i + 1, i + kSide + 1, i + kSide});
+        }
+    }
+    ASSERT_GE(mesh.triangles.size(), 9'990'000U);
+    const std::string refused = refusal(scene, 250'000);
+    EXPECT_NE(refused.find("vertices at 5004169 places"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("at most 250000"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("at about 15513 MB"), std::string::npos) << refused;
+}
+
+// As many over four points.
 TEST(StartSurface, FarTooManyTrianglesAreRefused) {
     scene::Scene scene = scene_of({square_mesh(2)});
-    scene.meshes[0].triangles.assign(1'000'000, {0, 1, 2});
-    const std::string refused = refusal(scene, 1000);
-    EXPECT_NE(refused.find("1000000 triangles"), std::string::npos) << refused;
-    EXPECT_NE(refused.find("at most 16000"), std::string::npos) << refused;
+    scene.meshes[0].triangles.assign(10'000'000, {0, 1, 2});
+    const std::string refused = refusal(scene, 250'000);
+    EXPECT_NE(refused.find("10000000 triangles"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("at most 4000000"), std::string::npos) << refused;
 }
 
 }  // namespace
