@@ -3,6 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import {
+    curveFromPoints, daubechies4, presetCurve, reflected, shapedCurve, withStroke,
+} from "./curves.mjs";
 import { innerCubemap, lightingCubemap, lightsOf, profile } from "./lighting_cubemap.mjs";
 import { levelsOf } from "./source_map.mjs";
 import { relit, readTransport } from "./transport.mjs";
@@ -123,5 +126,49 @@ test("transport directories give their stated values", () => {
             const where = `${name}: (${x}, ${y}), colour ${colour}, column ${column}`;
             assert.ok(Math.abs(found - value) <= 1e-9 * Math.max(1, Math.abs(value)), where);
         }
+    }
+});
+
+const curves = JSON.parse(
+    readFileSync(new URL("../../protocol/curve/vectors/curves.json", import.meta.url), "utf8"));
+
+function near(value, expected, tolerance, what) {
+    expected.forEach((x, c) => {
+        assert.ok(Math.abs(value[c] - x) <= tolerance, `${what}: found ${value[c]}, not ${x}`);
+    });
+}
+
+function haveSamples(curve, { samples, ...what }) {
+    for (const [k, expected] of Object.entries(samples)) {
+        expected.forEach((x, c) => {
+            near([curve[k][c]], [x], 1e-6 * x, `${JSON.stringify(what)}, sample ${k}`);
+        });
+    }
+}
+
+test("curves have their samples", () => {
+    for (const v of curves.shapes) haveSamples(shapedCurve(v.shape, v.angle), v);
+    for (const v of curves.presets) haveSamples(presetCurve(v.name), v);
+    for (const v of curves.points) haveSamples(curveFromPoints(v.points, v.scale), v);
+    for (const v of curves.strokes) {
+        haveSamples(withStroke(shapedCurve(v.shape, v.angle), v.stroke), v);
+    }
+});
+
+test("curves have their coefficients", () => {
+    for (const v of curves.coefficients) {
+        const curve = shapedCurve(v.shape, v.angle);
+        const found = [0, 1, 2].map((c) => daubechies4(curve.map((sample) => sample[c])));
+        for (const [j, expected] of Object.entries(v.coefficients)) {
+            const largest = Math.max(...found.flatMap((values) => [...values]));
+            near(found.map((values) => values[j]), expected, 1e-6 * largest, `coefficient ${j}`);
+        }
+    }
+});
+
+test("surfaces reflect by their curves", () => {
+    for (const v of curves.reflected) {
+        const what = JSON.stringify([v.brdf, v.wi, v.wo]);
+        near(reflected(v.brdf, v.wi, v.wo), v.value, 2e-5 * Math.max(...v.value), what);
     }
 });
