@@ -7,11 +7,14 @@
 namespace relume::stability {
 
 std::span<const Failure> failures() {
-    static const std::array all{ghosts(),         reset_flicker(),     popping(),
-                                rounding_drift(), repeated_rotation(), face_crossing(),
-                                small_lights(),   highlight_columns(), bad_texels(),
-                                edit_histories(), extreme_lighting(),  slow_rest(),
-                                sh_ringing()};
+    static const std::array all{ghosts(),           reset_flicker(),     popping(),
+                                rounding_drift(),   repeated_rotation(), face_crossing(),
+                                small_lights(),     highlight_columns(), bad_texels(),
+                                edit_histories(),   extreme_lighting(),  slow_rest(),
+                                sh_ringing(),       negative_factors(),  grazing_angles(),
+                                faded_highlights(), t_junctions(),       shadow_leaks(),
+                                vertex_in_wall(),   creases(),           odd_cameras(),
+                                moving_view()};
     return all;
 }
 

@@ -18,5 +18,15 @@ namespace relume::stability {
 [[nodiscard]] Failure extreme_lighting();
 [[nodiscard]] Failure slow_rest();
 [[nodiscard]] Failure sh_ringing();
+// Of surfaces under cameras that move: in mesh/.
+[[nodiscard]] Failure negative_factors();
+[[nodiscard]] Failure grazing_angles();
+[[nodiscard]] Failure faded_highlights();
+[[nodiscard]] Failure t_junctions();
+[[nodiscard]] Failure shadow_leaks();
+[[nodiscard]] Failure vertex_in_wall();
+[[nodiscard]] Failure creases();
+[[nodiscard]] Failure odd_cameras();
+[[nodiscard]] Failure moving_view();
 
 }  // namespace relume::stability
