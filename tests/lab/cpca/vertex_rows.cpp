@@ -113,7 +113,7 @@ VertexRows bake_vertex_rows(const scene::Scene& scene,
                             const bake::BakeParameters& parameters,
                             std::size_t most_runs) {
     const bake::RayCaster caster(scene);
-    const bake::MeshSubject subject(caster, parameters, nullptr);
+    const bake::MeshSubject subject(caster, parameters, {}, nullptr);
     const auto& receivers = dynamic_cast<const bake::VertexReceivers&>(subject.receivers());
     const bake::LightTexels texels(parameters.face_resolution, parameters.seed);
     const bake::PathTracer tracer(caster, parameters);
