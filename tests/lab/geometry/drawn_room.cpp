@@ -1,15 +1,16 @@
 #include "tests/lab/geometry/drawn_room.h"
 
+#include "tests/lab/geometry/orbit.h"
+
 #include <Imath/ImathQuat.h>
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 
 namespace relume::lab {
 namespace {
 
-constexpr double kStep = 1.5 * std::numbers::pi / 180;
+constexpr double kStepDegrees = 1.5;
 constexpr int kMovingQuality = 80;  // as images that move are sent (server/net/README.md)
 
 view::Look square_look(const served::Scene& scene, std::uint32_t side) {
@@ -40,19 +41,16 @@ DrawnRoom::~DrawnRoom() {
 }
 
 void DrawnRoom::turn_light(double steps) {
-    rig_.rotation.setAxisAngle({0, 1, 0}, static_cast<float>(steps * kStep));
+    constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+    rig_.rotation.setAxisAngle({0, 1, 0},
+                               static_cast<float>(steps * kStepDegrees * kRadiansPerDegree));
     light::evaluate(rig_, scene_->face_resolution(), cubemap_);
     light::lighting_coefficients(cubemap_, scene_->projection(), coefficients_);
     session_.set_target(coefficients_);
 }
 
 void DrawnRoom::move_camera(double steps) {
-    const view::Look& from = scene_->beginning();
-    const Imath::V3d arm = from.eye - from.look_at;
-    const double angle = steps * kStep;
-    look_.eye =
-        from.look_at + Imath::V3d(arm.x * std::cos(angle) + arm.z * std::sin(angle), arm.y,
-                                  arm.z * std::cos(angle) - arm.x * std::sin(angle));
+    look_ = orbited(square_look(*scene_, look_.width), steps * kStepDegrees);
     if (composer_.look(look_)) {
         session_.set_block_weights(composer_.block_weights());
         if (!session_.exact()) {

@@ -5,12 +5,16 @@
 #include "server/engine/session.h"
 #include "tests/lab/measures/lighting_error.h"
 #include "tests/lab/measures/perceptual_difference.h"
+#include "tests/lab/methods/image_maker.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace relume::lab {
@@ -21,23 +25,40 @@ using transport::kColours;
 // The exact image of a light, from a session that is given time until it is at rest.
 class Reference {
   public:
-    explicit Reference(const std::shared_ptr<const served::Scene>& scene)
-        : scene_(scene), session_(scene->workspace(), {}) {}
+    explicit Reference(const served::Scene& scene)
+        : session_(scene.workspace(), {}), image_(scene) {}
 
-    void write_image(std::span<const float> lighting, std::span<float> rgb) {
+    void write_image(std::span<const float> lighting,
+                     const view::Look& look,
+                     std::span<float> rgb) {
         session_.set_target(lighting);
         while (!session_.exact()) {
             session_.advance(kAllAtOnce);
         }
-        scene_->write_image(session_.sums(), rgb);
+        image_.look(look);
+        image_.take(session_.sums());
+        image_.write(rgb);
     }
 
   private:
     static constexpr relighting::Budget kAllAtOnce{
         .milliseconds = 1e6, .coefficients = std::nullopt, .target_error = 0};
-    std::shared_ptr<const served::Scene> scene_;
     engine::Session session_;
+    ViewImageMaker image_;
 };
+
+// Throws std::invalid_argument where the camera of an image is asked to move.
+void require_movable(const served::Scene& scene, const LightingSequence& sequence) {
+    for (std::uint32_t i = 0; i < sequence.images; ++i) {
+        if (!scene.view_can_move() &&
+            look_of_image(sequence, scene.beginning(), i) != scene.beginning()) {
+            throw std::invalid_argument(fmt::format(
+                "sequence '{}' moves the camera, and {} is of kind image: expected a transport "
+                "of kind mesh",
+                sequence.name, scene.transport().directory().string()));
+        }
+    }
+}
 
 double square(double x) {
     return x * x;
@@ -46,6 +67,7 @@ double square(double x) {
 // What is known of one image before any method has seen it.
 struct Truth {
     ImageLight light;
+    view::Look look;
     std::span<const float> image;
     std::uint32_t width;
 };
@@ -68,6 +90,7 @@ class Entrant {
 
     Record measure(const Truth& truth) {
         contestant_->set_light(truth.light);
+        contestant_->look(truth.look);
         const auto start = std::chrono::steady_clock::now();
         const Step step = contestant_->step();
         const auto end = std::chrono::steady_clock::now();
@@ -163,12 +186,13 @@ class Entrant {
 
 Findings run_experiment(const Experiment& experiment) {
     const served::Scene& scene = *experiment.scene.haar;
+    require_movable(scene, experiment.sequence);
     const std::size_t values =
         kColours * std::size_t{scene.image().width} * scene.image().height;
     std::vector<float> reference_image(values);
     std::vector<float> lighting;
     light::LightCubemap radiance(scene.face_resolution());
-    Reference reference(experiment.scene.haar);
+    Reference reference(scene);
     std::vector<Entrant> entrants;
     for (const Method& method : experiment.methods) {
         entrants.emplace_back(method, experiment.scene, values);
@@ -180,8 +204,10 @@ Findings run_experiment(const Experiment& experiment) {
                         scene.face_resolution(), radiance);
         light::lighting_coefficients(radiance, scene.projection(), lighting);
         temporal_bands.add(lighting);
-        reference.write_image(lighting, reference_image);
+        const view::Look look = look_of_image(experiment.sequence, scene.beginning(), i);
+        reference.write_image(lighting, look, reference_image);
         const Truth truth{.light = {.radiance = radiance, .haar = lighting},
+                          .look = look,
                           .image = reference_image,
                           .width = scene.image().width};
         const bool keep = std::find(experiment.pictures.begin(), experiment.pictures.end(),

@@ -42,9 +42,10 @@ struct Findings {
 
 // Every image is given its light anew and one step, as in the papers: also at rest NWA-k stays
 // at k terms, and nothing but the method's own increments improves the image. The reference of
-// each image is the dense product of the stored Haar transport. Methods take turns within each
-// image, so that what else the machine does hits all alike. Numbers of reproducible columns are
-// the same on every run and any number of threads.
+// each image is the dense product of the stored Haar transport, seen by the same camera.
+// Methods take turns within each image, so that what else the machine does hits all alike.
+// Numbers of reproducible columns are the same on every run and any number of threads. Throws
+// std::invalid_argument where the sequence moves the camera and the scene is an image.
 [[nodiscard]] Findings run_experiment(const Experiment& experiment);
 
 }  // namespace relume::lab

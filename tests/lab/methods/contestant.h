@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/light/light_cubemap.h"
+#include "server/view/view.h"
 
 #include <cstdint>
 #include <span>
@@ -42,12 +43,15 @@ class Contestant {
 
     // Brings the light into the method's basis. Not counted in the method's time.
     virtual void set_light(const ImageLight& light) = 0;
+    // Where the next images are looked at from; at first where the scene's views begin. Not
+    // counted either.
+    virtual void look(const view::Look& look) = 0;
     // One image's worth of work towards the light last set: what is timed.
     virtual Step step() = 0;
 
-    // The relit image, interleaved RGB, 3·width·height values.
-    virtual void write_image(std::span<float> rgb) const = 0;
-    // Valid until the next call of the two above.
+    // The relit image after a step, interleaved RGB, 3·width·height values.
+    virtual void write_image(std::span<float> rgb) = 0;
+    // Valid until the next call of set_light or step.
     [[nodiscard]] virtual LightingView lighting() const = 0;
     // L̃ as radiance, in whatever basis it is held; `out` is reset to the scene's resolution.
     virtual void write_radiance(light::LightCubemap& out) const = 0;

@@ -7,7 +7,7 @@
 
 namespace relume::lab {
 
-// nwa, bi, pbi, guarded: what the server runs.
+// nwa, bi, pbi, guarded: what the server runs; full: the whole product.
 void add_session_families(std::vector<MethodFamily>& families);
 // pbi-l2, pbi-dealer, pbi-exhaustive and their likes in L2: selectors of [Overbeck06T 6.2].
 void add_selector_families(std::vector<MethodFamily>& families);

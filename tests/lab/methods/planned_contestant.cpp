@@ -9,6 +9,7 @@ namespace relume::lab {
 PlannedContestant::PlannedContestant(std::shared_ptr<const served::Scene> scene,
                                      std::unique_ptr<PlanMaker> plan_maker)
     : scene_(std::move(scene)),
+      image_(*scene_),
       plan_maker_(std::move(plan_maker)),
       lighting_(scene_->columns()),
       lit_(scene_->columns()),
@@ -27,15 +28,12 @@ Step PlannedContestant::step() {
     images_.update(plan_.bands_to_reset, plan_.changes);
     lighting_.apply(plan_);
     error_.apply(plan_);
+    const std::uint64_t bytes_of_image = image_.take(images_.total());
     return {.applied = static_cast<std::uint32_t>(plan_.changes.size()),
             .bands_reset = plan_.bands_to_reset,
-            .bytes = plan_.bytes,
+            .bytes = plan_.bytes + bytes_of_image,
             .band_bytes = images_.bytes_of_bands(),
             .stated_error = error_.relative_l2()};
-}
-
-void PlannedContestant::write_image(std::span<float> rgb) const {
-    scene_->write_image(images_.total(), rgb);
 }
 
 LightingView PlannedContestant::lighting() const {

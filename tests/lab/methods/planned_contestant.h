@@ -1,13 +1,14 @@
 // A method made of the engine's parts that chooses by rules of its own.
 #pragma once
 
-#include "server/engine/error_estimate.h"
 #include "server/engine/columns/plan.h"
-#include "server/scene/scene.h"
 #include "server/engine/columns/signal_state.h"
 #include "server/engine/columns/significant_columns.h"
+#include "server/engine/error_estimate.h"
 #include "server/engine/sums/band_sums.h"
+#include "server/scene/scene.h"
 #include "tests/lab/methods/contestant.h"
+#include "tests/lab/methods/image_maker.h"
 
 #include <memory>
 #include <vector>
@@ -36,13 +37,15 @@ class PlannedContestant final : public Contestant {
                       std::unique_ptr<PlanMaker> plan_maker);
 
     void set_light(const ImageLight& light) override;
+    void look(const view::Look& look) override { image_.look(look); }
     Step step() override;
-    void write_image(std::span<float> rgb) const override;
+    void write_image(std::span<float> rgb) override { image_.write(rgb); }
     [[nodiscard]] LightingView lighting() const override;
     void write_radiance(light::LightCubemap& out) const override;
 
   private:
     std::shared_ptr<const served::Scene> scene_;
+    ViewImageMaker image_;
     std::unique_ptr<PlanMaker> plan_maker_;
     engine::SignalState lighting_;
     engine::SignificantColumns lit_;

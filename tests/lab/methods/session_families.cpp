@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace relume::lab {
@@ -18,14 +20,23 @@ MethodFamily session_family(relighting::Method method, std::string summary) {
             .summary = std::move(summary),
             .parse = [name, method](std::string_view rest) {
                 const WaveletTerms terms = wavelet_terms_from_text(rest);
-                return Method{
-                    .label = name + "-" + terms.text,
-                    .enter = [method, terms](const LabScene& scene) {
-                        return std::make_unique<SessionContestant>(
-                            scene.haar,
-                            relighting::Strategy{.method = method, .priority = terms.priority},
-                            terms.budget, scene.haar->columns().count());
-                    }};
+                return Method{.label = name + "-" + terms.text,
+                              .enter = [method, terms](const LabScene& scene) {
+                                  return session_over(
+                                      scene.haar,
+                                      {.method = method, .priority = terms.priority},
+                                      terms.budget, scene.haar->columns().count());
+                              }};
+            }};
+}
+
+Method whole_product(std::string_view rest) {
+    if (rest != "product") {
+        throw std::invalid_argument(fmt::format("'{}', expected product", rest));
+    }
+    return {.label = "full-product", .enter = [](const LabScene& scene) {
+                return session_over(scene.haar, {}, std::nullopt,
+                                    scene.haar->columns().count());
             }};
 }
 
@@ -40,6 +51,10 @@ void add_session_families(std::vector<MethodFamily>& families) {
         relighting::Method::pbi, "bi, bands begin anew where that is nearer [Overbeck06 §5]"));
     families.push_back(session_family(relighting::Method::guarded,
                                       "bi, bands begin anew by the predicted image error"));
+    families.push_back({.name = "full",
+                        .form = "product",
+                        .summary = "the whole transport, each image",
+                        .parse = whole_product});
 }
 
 }  // namespace relume::lab

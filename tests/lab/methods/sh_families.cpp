@@ -32,8 +32,8 @@ std::shared_ptr<const served::Scene> sh_scene(const LabScene& scene, std::uint32
             "{}: basis {}, expected spherical harmonics of order {} or more",
             scene.sh_transport.string(), transport::json_from(found).dump(), order));
     }
-    const transport::TileGrid& image = baked->image();
-    const transport::TileGrid& expected = scene.haar->image();
+    const transport::TileGrid image = baked->image();
+    const transport::TileGrid expected = scene.haar->image();
     if (image.width != expected.width || image.height != expected.height ||
         found.face_resolution() != scene.haar->face_resolution()) {
         throw std::runtime_error(fmt::format(
@@ -60,12 +60,11 @@ std::uint32_t order_from_text(std::string_view text) {
 Method linear_method(std::string_view rest) {
     const std::uint32_t order = order_from_text(rest);
     return {.label = fmt::format("sh-{}", order), .enter = [order](const LabScene& scene) {
-                auto baked = sh_scene(scene, order);
+                const auto baked = sh_scene(scene, order);
                 const auto count = static_cast<std::uint32_t>(basis::sh_count(order));
-                return std::make_unique<SessionContestant>(
-                    std::move(baked),
-                    relighting::Strategy{.method = relighting::Method::nwa,
-                                         .priority = relighting::Priority::none},
+                return session_over(
+                    baked,
+                    {.method = relighting::Method::nwa, .priority = relighting::Priority::none},
                     engine::SelectionBudget{.columns = count, .bytes = ~std::uint64_t{0}},
                     count);
             }};
@@ -75,12 +74,10 @@ Method linear_method(std::string_view rest) {
 Method incremental_method(std::string_view rest) {
     const WaveletTerms terms = wavelet_terms_from_text(rest);
     return {.label = "pbi-sh-" + terms.text, .enter = [terms](const LabScene& scene) {
-                auto baked = sh_scene(scene, 1);
+                const auto baked = sh_scene(scene, 1);
                 const std::size_t count = baked->columns().count();
-                return std::make_unique<SessionContestant>(
-                    std::move(baked),
-                    relighting::Strategy{.method = relighting::Method::pbi,
-                                         .priority = terms.priority},
+                return session_over(
+                    baked, {.method = relighting::Method::pbi, .priority = terms.priority},
                     terms.budget, count);
             }};
 }

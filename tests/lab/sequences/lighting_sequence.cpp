@@ -1,6 +1,7 @@
 #include "tests/lab/sequences/lighting_sequence.h"
 
 #include "protocol/wire/room_state.h"
+#include "tests/lab/geometry/orbit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -125,7 +126,8 @@ nlohmann::json json_from_file(const fs::path& file) {
 
 std::uint32_t LightingSequence::rests_from() const {
     std::uint32_t latest = 0;
-    for (const Curve* curve : {&yaw_degrees, &pitch_degrees, &roll_degrees, &gain, &blend}) {
+    for (const Curve* curve :
+         {&yaw_degrees, &pitch_degrees, &roll_degrees, &gain, &blend, &orbit_degrees}) {
         latest = std::max(latest, curve->rests_from());
     }
     for (const LightCurves& light : lights) {
@@ -156,6 +158,13 @@ light::LightRig rig_of_image(const LightingSequence& sequence,
     return rig;
 }
 
+view::Look look_of_image(const LightingSequence& sequence,
+                         const view::Look& beginning,
+                         std::uint32_t image) {
+    const double degrees = sequence.orbit_degrees.at(image, sequence.seed);
+    return degrees == 0 ? beginning : orbited(beginning, degrees);
+}
+
 LightingSequence sequence_from_json(const nlohmann::json& json) {
     ObjectReader reader(json, "");
     LightingSequence sequence;
@@ -168,6 +177,7 @@ LightingSequence sequence_from_json(const nlohmann::json& json) {
     reader.take_curve("roll_degrees", 2, sequence.roll_degrees);
     reader.take_curve("gain", 3, sequence.gain);
     reader.take_curve("blend", 4, sequence.blend);
+    reader.take_curve("orbit_degrees", 5, sequence.orbit_degrees);
     if (const nlohmann::json* lights = reader.find("lights")) {
         for (std::size_t i = 0; i < lights->size(); ++i) {
             sequence.lights.push_back(light_from_json(lights->at(i), i));

@@ -1,7 +1,8 @@
-// What the light does, image by image, as a file says it (README.md of this folder).
+// What light and camera do, image by image, as a file says it (README.md of this folder).
 #pragma once
 
 #include "protocol/light/light_rig.h"
+#include "server/view/view.h"
 #include "tests/lab/sequences/curve.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -34,6 +35,7 @@ struct LightingSequence {
     Curve gain = 1;
     Curve blend = 0;  // part of the second environment, 0 to 1
     std::vector<LightCurves> lights;
+    Curve orbit_degrees = 0;  // of the camera (geometry/orbit.h)
 
     // The first image from which on nothing changes any more; `images` if there is none.
     [[nodiscard]] std::uint32_t rests_from() const;
@@ -49,6 +51,11 @@ struct Environments {
 [[nodiscard]] light::LightRig rig_of_image(const LightingSequence& sequence,
                                            const Environments& environments,
                                            std::uint32_t image);
+
+// Where that image is looked at from, by a view that begins with `beginning`.
+[[nodiscard]] view::Look look_of_image(const LightingSequence& sequence,
+                                       const view::Look& beginning,
+                                       std::uint32_t image);
 
 // Throws std::invalid_argument with a JSON pointer to what is wrong, what was found and
 // expected. Names nobody knows are refused.

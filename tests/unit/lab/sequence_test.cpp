@@ -42,11 +42,14 @@ TEST_P(BuiltInSequence, MovesUntilItRestsAndThenNoMore) {
     const LightingSequence sequence = load_sequence(GetParam());
     const std::uint32_t rest = sequence.rests_from();
     ASSERT_GT(rest, 0U);
-    EXPECT_FALSE(same_rig(rig_of_image(sequence, {}, rest - 1),
-                          rig_of_image(sequence, {}, sequence.images)) &&
-                 rest < sequence.images);
+    const view::Look beginning{.eye = {1, 2, 3}, .look_at = {0, 1, 0}};
+    const auto are_same = [&](std::uint32_t a, std::uint32_t b) {
+        return same_rig(rig_of_image(sequence, {}, a), rig_of_image(sequence, {}, b)) &&
+               look_of_image(sequence, beginning, a) == look_of_image(sequence, beginning, b);
+    };
+    EXPECT_FALSE(are_same(rest - 1, sequence.images) && rest < sequence.images);
     for (std::uint32_t i = rest; i < sequence.images; ++i) {
-        EXPECT_TRUE(same_rig(rig_of_image(sequence, {}, rest), rig_of_image(sequence, {}, i)));
+        EXPECT_TRUE(are_same(rest, i));
     }
 }
 
