@@ -28,19 +28,6 @@ struct Scratch {
     bake::RowBaker::Scratch rows;
 };
 
-// By channel: what its values are multiplied by, so that errors weigh alike.
-std::vector<float> channel_scales(const transport::ColourModel& colour) {
-    std::vector<float> scales;
-    for (std::uint32_t k = 0; k < colour.channels; ++k) {
-        double norm = 0;
-        for (const auto& row : colour.matrix) {
-            norm += double{row[k]} * row[k];
-        }
-        scales.push_back(static_cast<float>(std::sqrt(norm / 3)));
-    }
-    return scales;
-}
-
 // Room for the rows of the shards' vertices; numbers of the surface's vertices, ascending, go
 // into `vertices`.
 VertexRows empty_rows(const bake::VertexReceivers& receivers,
@@ -108,6 +95,18 @@ std::vector<bake::ShardClusters> some_shards(const bake::Receivers& receivers,
 }
 
 }  // namespace
+
+std::vector<float> channel_scales(const transport::ColourModel& colour) {
+    std::vector<float> scales;
+    for (std::uint32_t k = 0; k < colour.channels; ++k) {
+        double norm = 0;
+        for (const auto& row : colour.matrix) {
+            norm += double{row[k]} * row[k];
+        }
+        scales.push_back(static_cast<float>(std::sqrt(norm / 3)));
+    }
+    return scales;
+}
 
 VertexRows bake_vertex_rows(const scene::Scene& scene,
                             const bake::BakeParameters& parameters,

@@ -5,6 +5,7 @@
 #include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 #include "protocol/basis/cubemap_basis.h"
+#include "protocol/transport/colour_model.h"
 #include "tests/lab/cpca/vertex_graph.h"
 
 #include <cstddef>
@@ -38,6 +39,9 @@ struct VertexRows {
         return std::span(values).subspan(first[vertex] * columns(), planes[vertex] * columns());
     }
 };
+
+// By channel: what its values are multiplied by, so that errors weigh alike.
+[[nodiscard]] std::vector<float> channel_scales(const transport::ColourModel& colour);
 
 // Bakes them as relume-bake --receivers vertices does. Of the surface's runs of sixteen
 // clusters side by side, at most so many that are spread evenly: other vertices are left out.

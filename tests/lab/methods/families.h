@@ -14,4 +14,7 @@ void add_selector_families(std::vector<MethodFamily>& families);
 // sh, pbi-sh, pbi-sh-filled: the same view in spherical harmonics.
 void add_sh_families(std::vector<MethodFamily>& families);
 
+// factored, cpca: over a surface's vertices, under a camera that may move.
+void add_surface_families(std::vector<MethodFamily>& families);
+
 }  // namespace relume::lab

@@ -3,6 +3,7 @@
 
 #include "server/scene/scene.h"
 #include "tests/lab/methods/contestant.h"
+#include "tests/lab/methods/derived_transports.h"
 
 #include <filesystem>
 #include <functional>
@@ -19,6 +20,8 @@ struct LabScene {
     std::shared_ptr<const served::Scene> haar;
     // The same view baked in spherical harmonics; empty: there is none.
     std::filesystem::path sh_transport;
+    // Of `haar`.
+    std::shared_ptr<DerivedTransports> derived = std::make_shared<DerivedTransports>();
 };
 
 struct Method {

@@ -10,7 +10,8 @@ namespace {
 
 std::vector<MethodFamily> all_families() {
     std::vector<MethodFamily> families;
-    for (const auto& add : {add_session_families, add_selector_families, add_sh_families}) {
+    for (const auto& add :
+         {add_session_families, add_selector_families, add_sh_families, add_surface_families}) {
         add(families);
     }
     return families;

@@ -19,10 +19,10 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(Method, ALabelNamesTheSameMethodAgain) {
-    for (const char* text :
-         {"nwa-30", "bi-100-none", "pbi-30-transport", "pbi-dealer-30", "pbi-exhaustive-7-area",
-          "pbi-l2-30", "pbi-dealer-l2-30", "pbi-sh-25", "pbi-sh-filled-25",
-          "guarded-400kB-benefit", "bi-2MB"}) {
+    for (const char* text : {"nwa-30", "bi-100-none", "pbi-30-transport", "pbi-dealer-30",
+                             "pbi-exhaustive-7-area", "pbi-l2-30", "pbi-dealer-l2-30",
+                             "pbi-sh-25", "pbi-sh-filled-25", "guarded-400kB-benefit", "bi-2MB",
+                             "full-product", "factored-k4-30", "cpca-c40-s16-30-transport"}) {
         const std::string label = method_from_text(text).label;
         EXPECT_EQ(method_from_text(label).label, label) << text;
         EXPECT_EQ(label.rfind(text, 0), 0U) << text;
@@ -45,6 +45,11 @@ TEST(Method, WhatIsRefusedIsNamedWithWhatIsExpected) {
     EXPECT_NE(refusal_of("pbi-30GB").find("kB or MB"), std::string::npos);
     EXPECT_NE(refusal_of("pbi-30-size").find("area"), std::string::npos);
     EXPECT_NE(refusal_of("pbi-dealer-30kB").find("not of bytes"), std::string::npos);
+    EXPECT_NE(refusal_of("factored-30").find("number of terms"), std::string::npos);
+    EXPECT_NE(refusal_of("factored-k0-30").find("number of terms"), std::string::npos);
+    EXPECT_NE(refusal_of("cpca-c40-30").find("bases of a cluster"), std::string::npos);
+    EXPECT_NE(refusal_of("cpca-c40-s16").find("bases of a cluster"), std::string::npos);
+    EXPECT_NE(refusal_of("full-image").find("product"), std::string::npos);
     EXPECT_NE(refusal_of("pbi").find("expected"), std::string::npos);
     EXPECT_NE(refusal_of("").find("expected"), std::string::npos);
 }
