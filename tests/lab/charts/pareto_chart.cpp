@@ -1,7 +1,6 @@
 #include "tests/lab/charts/pareto_chart.h"
 
 #include "tests/lab/charts/gnuplot.h"
-#include "tests/lab/measures/pareto.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,13 +13,6 @@ namespace relume::lab {
 namespace {
 
 constexpr double kLeastError = 1e-6;
-
-CostAndError cost_and_error(const Summary& summary, ParetoCost cost) {
-    // Errors below kLeastError are rounding: they are drawn, and compared, as equal.
-    return {.cost = cost == ParetoCost::milliseconds ? summary.microseconds / 1e3
-                                                     : summary.bytes / 1e3,
-            .error = std::max(summary.l2, kLeastError)};
-}
 
 std::vector<std::string> series_in(const std::vector<Summary>& summaries) {
     std::vector<std::string> series;
@@ -71,11 +63,6 @@ std::string plot_command(const std::string& block,
     return command + "\n";
 }
 
-const char* axis_of(ParetoCost cost) {
-    return cost == ParetoCost::milliseconds ? "milliseconds an image, median"
-                                            : "kB of transport read an image, mean";
-}
-
 // The range of the points with a little room, and ticks at 1, 2 and 5 of each decade; more of
 // them where the range is less than one.
 std::string cost_axis(const ParetoPanel& panel, ParetoCost cost) {
@@ -105,6 +92,17 @@ constexpr const char* kLogarithmic =
     "set logscale xy\nset format y '10^{%L}'\nset format x '%g'\n";
 
 }  // namespace
+
+CostAndError cost_and_error(const Summary& summary, ParetoCost cost) {
+    return {.cost = cost == ParetoCost::milliseconds ? summary.microseconds / 1e3
+                                                     : summary.bytes / 1e3,
+            .error = std::max(summary.l2, kLeastError)};
+}
+
+const char* axis_of(ParetoCost cost) {
+    return cost == ParetoCost::milliseconds ? "milliseconds an image, median"
+                                            : "kB of transport read an image, mean";
+}
 
 std::string series_of(const std::string& method) {
     // The budget is the first part that begins with a digit.

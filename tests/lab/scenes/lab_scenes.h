@@ -12,6 +12,14 @@ namespace relume::lab {
 // Beside the program.
 [[nodiscard]] std::string default_scene_cache();
 
+// A built-in scene's surface: 6×32×32, two bounces, target error 0.1 %.
+struct LabSurface {
+    std::string scene = "street";
+    std::uint32_t vertices = 40'000;  // at most
+    std::uint32_t terms = 4;          // of every glossy material
+    std::uint32_t side = 512;         // of the images that its views begin with, in pixels
+};
+
 // Built-in scenes of relume-bake, baked once into a cache: one bounce, 16 samples, 6×32×32.
 class LabScenes {
   public:
@@ -24,6 +32,10 @@ class LabScenes {
     // The folder of the same view in spherical harmonics of order 20.
     [[nodiscard]] std::filesystem::path sh_transport(const std::string& name,
                                                      std::uint32_t side = 128);
+
+    [[nodiscard]] std::shared_ptr<const served::Scene> surface(const LabSurface& surface);
+    // The folder of the same surface in spherical harmonics of order 20.
+    [[nodiscard]] std::filesystem::path sh_transport(const LabSurface& surface);
 
   private:
     test::SceneCache scenes_;
