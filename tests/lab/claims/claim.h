@@ -34,5 +34,6 @@ using ClaimGroup = std::vector<Claim> (*)(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> still_light_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> priority_claims(Evidence& evidence);
 [[nodiscard]] std::vector<Claim> sh_claims(Evidence& evidence);
+[[nodiscard]] std::vector<Claim> surface_claims(Evidence& evidence);
 
 }  // namespace relume::lab

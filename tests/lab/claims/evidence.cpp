@@ -56,6 +56,11 @@ LabScene Evidence::scene_in_both_bases(const std::string& builtin) {
     return {.haar = scenes().scene(builtin), .sh_transport = scenes().sh_transport(builtin)};
 }
 
+LabScene Evidence::surface(const std::string& builtin) {
+    return {.haar = scenes().surface({.scene = builtin, .vertices = 10'000, .side = 256}),
+            .sh_transport = {}};
+}
+
 const std::vector<LightRun>& Evidence::rotations() {
     if (rotations_.empty()) {
         std::vector<LightRun> runs;

@@ -52,6 +52,9 @@ class Evidence {
     // The same with the view in spherical harmonics of order 20 beside it.
     [[nodiscard]] LabScene scene_in_both_bases(const std::string& builtin);
 
+    // A built-in scene's surface: at most 10,000 vertices, 4 terms, images of 256².
+    [[nodiscard]] LabScene surface(const std::string& builtin);
+
     // The demo scene under every light, slow-fast-slow: NWA with ever more terms, BI with 30,
     // PBI with 30 and 100, PBI-30 with the other selectors and norms, all by area.
     [[nodiscard]] const std::vector<LightRun>& rotations();
