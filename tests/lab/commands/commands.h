@@ -23,6 +23,7 @@ struct Command {
 [[nodiscard]] Command add_curves_command(CLI::App& program);
 [[nodiscard]] Command add_geometry_command(CLI::App& program);
 [[nodiscard]] Command add_brdf_terms_command(CLI::App& program);
+[[nodiscard]] Command add_view_terms_command(CLI::App& program);
 [[nodiscard]] Command add_cpca_command(CLI::App& program);
 [[nodiscard]] Command add_stability_command(CLI::App& program);
 

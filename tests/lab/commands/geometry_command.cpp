@@ -9,7 +9,7 @@
 #include "tests/lab/geometry/interpolation_error.h"
 #include "tests/lab/scenes/lab_scenes.h"
 #include "tests/lab/sequences/environment_source.h"
-#include "tests/support/scene_cache.h"
+#include "tests/lab/sequences/map_cubemap.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,11 +27,8 @@ namespace {
 using nlohmann::json;
 
 struct Options {
-    std::string scene = "street";
+    LabSurface surface;
     std::string environment = "studio";
-    std::uint32_t side = 512;
-    std::uint32_t vertices = 40'000;
-    std::uint32_t terms = 4;
     std::uint32_t threads = 2;
     std::uint32_t images = 120;
     double milliseconds = 8;
@@ -40,28 +37,18 @@ struct Options {
     bool as_json = false;
 };
 
-bake::BakeParameters parameters_of(const Options& options) {
+// As LabScenes bakes it.
+bake::BakeParameters parameters_of(const LabSurface& surface) {
     bake::BakeParameters parameters;
     parameters.receivers = bake::ReceiverKind::vertices;
-    parameters.width = options.side;
-    parameters.height = options.side;
+    parameters.width = surface.side;
+    parameters.height = surface.side;
     parameters.face_resolution = 32;
     parameters.bounces = 2;
-    parameters.vertices = options.vertices;
-    parameters.terms = options.terms;
+    parameters.vertices = surface.vertices;
+    parameters.terms = surface.terms;
     parameters.target_error = 1e-3;
     return parameters;
-}
-
-std::shared_ptr<const served::Scene> scene_of(const Options& options) {
-    test::SceneCache cache(options.cache);
-    const std::string size = fmt::format("{0}x{0}", options.side);
-    return cache.baked(fmt::format("mesh-{}-{}-{}-{}", options.scene, options.vertices,
-                                   options.terms, options.side),
-                       {"--builtin", options.scene, "--receivers", "vertices", "--vertices",
-                        std::to_string(options.vertices), "--terms",
-                        std::to_string(options.terms), "--light-resolution", "32", "--bounces",
-                        "2", "--size", size, "--target-error", "0.001"});
 }
 
 // Images per second of a loop that makes every image and its JPEG.
@@ -134,30 +121,17 @@ double bake_seconds(const served::Scene& scene) {
     return report.at("seconds").at("total").get<double>();
 }
 
-bake::CubemapLight cubemap_of(const Options& options, std::uint32_t n) {
-    light::LightRig rig;
-    rig.environment = load_environment(options.environment, n);
-    light::LightCubemap cubemap;
-    light::evaluate(rig, n, cubemap);
-    bake::CubemapLight light;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::span<const float> plane = cubemap.planes()[c];
-        light[c].assign(plane.begin(), plane.end());
-    }
-    return light;
-}
-
 int run(const Options& options) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     options.threads);
-    const auto scene = scene_of(options);
+    const auto scene = LabScenes(options.cache).surface(options.surface);
     const transport::Manifest& manifest = scene->transport().manifest();
     const relighting::Budget budget{
         .milliseconds = options.milliseconds, .coefficients = {}, .target_error = 0};
     const auto environment = load_environment(options.environment, scene->face_resolution());
     json figures;
     {
-        DrawnRoom room(scene, environment, options.side);
+        DrawnRoom room(scene, environment, options.surface.side);
         figures["images_per_s_light_and_view"] =
             images_per_second(room, budget, options.images, [&](std::uint32_t image) {
                 room.turn_light(image);
@@ -173,30 +147,30 @@ int run(const Options& options) {
                               [&](std::uint32_t image) { room.move_camera(image); });
     }
     {
-        DrawnRoom room(scene, environment, options.side);
+        DrawnRoom room(scene, environment, options.surface.side);
         const Convergence found = converge(room, budget);
         figures["error_while_moving"] = found.error_while_moving;
         figures["error_5_images_after_rest"] = found.error_5_images_after_rest;
         figures["images_to_exact"] = found.images_to_exact;
     }
-    bake::BakeParameters parameters = parameters_of(options);
+    bake::BakeParameters parameters = parameters_of(options.surface);
     constexpr std::uint32_t kPathsOfPoint = 1024;
     parameters.samples = kPathsOfPoint;
     parameters.shrinkage = 0;
     const InterpolationError interpolation = interpolation_error(
-        scene::build_builtin_scene(options.scene), scene->transport(), parameters,
-        cubemap_of(options, scene->face_resolution()), options.points);
+        scene::build_builtin_scene(options.surface.scene), scene->transport(), parameters,
+        cubemap_of_map(options.environment, scene->face_resolution()), options.points);
     figures["interpolation_error"] = interpolation.relative_l2;
     figures["bake_seconds"] = bake_seconds(*scene);
     figures["bytes"] = scene->transport().total_bytes();
-    const json configuration{{"scene", options.scene},
+    const json configuration{{"scene", options.surface.scene},
                              {"environment", options.environment},
-                             {"side", options.side},
+                             {"side", options.surface.side},
                              {"threads", options.threads},
                              {"vertices", manifest.layout.clusters().vertex_count()},
                              {"clusters", manifest.layout.clusters().clusters().size()},
                              {"blocks", manifest.block_count()},
-                             {"terms", options.terms},
+                             {"terms", options.surface.terms},
                              {"milliseconds", options.milliseconds},
                              {"points", interpolation.points}};
     if (options.as_json) {
@@ -219,12 +193,14 @@ Command add_geometry_command(CLI::App& program) {
     auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand(
         "geometry", "speed and errors of a surface that is seen by a camera that moves");
-    app->add_option("--scene", options->scene, "built-in scene")->capture_default_str();
+    app->add_option("--scene", options->surface.scene, "built-in scene")->capture_default_str();
     app->add_option("--environment", options->environment, "name or file")
         ->capture_default_str();
-    app->add_option("--side", options->side, "of images, in pixels")->capture_default_str();
-    app->add_option("--vertices", options->vertices, "at most")->capture_default_str();
-    app->add_option("--terms", options->terms, "of every material")->capture_default_str();
+    app->add_option("--side", options->surface.side, "of images, in pixels")
+        ->capture_default_str();
+    app->add_option("--vertices", options->surface.vertices, "at most")->capture_default_str();
+    app->add_option("--terms", options->surface.terms, "of every material")
+        ->capture_default_str();
     app->add_option("--threads", options->threads, "of all that is timed")
         ->capture_default_str();
     app->add_option("--images", options->images, "that are timed")->capture_default_str();

@@ -2,16 +2,11 @@
 
 #include "precompute/bake/mesh/surface_caster.h"
 #include "precompute/bake/rays/ray_caster.h"
-#include "precompute/bake/rows/path_tracer.h"
-#include "precompute/bake/rows/row_baker.h"
-#include "precompute/scene/camera.h"
-#include "protocol/brdf/local_frame.h"
 #include "protocol/transport/hash.h"
+#include "tests/lab/geometry/point_rows.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -22,88 +17,13 @@ namespace {
 using Imath::V3d;
 using Imath::V3f;
 
-// Rows of points, and what they make of one light.
-class PointRows {
-  public:
-    PointRows(const bake::RayCaster& caster,
-              const bake::BakeParameters& parameters,
-              const bake::CubemapLight& light)
-        : texels_(parameters.face_resolution, parameters.seed),
-          tracer_(caster, parameters),
-          rows_(caster, texels_, parameters) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            coefficients_[c].resize(rows_.projection().basis().coefficient_count());
-            rows_.projection().project_radiance(light[c], coefficients_[c]);
-        }
+// A texture has its colour in itself: about a half.
+std::vector<V3f> mean_colours(const transport::MaterialRecord& material) {
+    std::vector<V3f> colours;
+    for (const transport::LobeRecord& lobe : material.lobes) {
+        colours.push_back(lobe.texture ? V3f(0.5F) : lobe.colour);
     }
-
-    [[nodiscard]] std::vector<V3d> terms(const scene::SurfacePoint& point,
-                                         const brdf::FactoredBrdf& brdf,
-                                         float footprint,
-                                         std::uint32_t number) const {
-        bake::ReceiverSurface surface;
-        surface.point = point;
-        const brdf::Frame frame = brdf::local_frame(point.shading.normal);
-        surface.point.shading = {
-            .tangent = frame.tangent, .bitangent = frame.bitangent, .normal = frame.normal};
-        surface.point.geometric_normal = frame.normal;
-        surface.point.wo = {0, 0, 1};
-        surface.point.bsdf = scene::Bsdf::lambert({1, 1, 1});
-        surface.share = 1;
-        surface.footprint = footprint;
-        surface.origins.fill(bake::offset_origin(point));
-        surface.brdf = &brdf;
-        Scratch& scratch = scratches_.local();
-        rows_.bake(tracer_.trace({.index = number,
-                                  .place = {.run = number,
-                                            .along = 0.7548776662466927 * number,
-                                            .across = 0.5698402909980532 * number},
-                                  .surfaces = {std::move(surface)}}),
-                   nullptr, scratch.rows, scratch.baking);
-        std::vector<V3d> lit(scratch.rows.size(), V3d(0));
-        for (std::size_t k = 0; k < lit.size(); ++k) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                for (std::size_t j = 0; j < coefficients_[c].size(); ++j) {
-                    lit[k][static_cast<int>(c)] +=
-                        double{scratch.rows[k].rgb[c][j]} * coefficients_[c][j];
-                }
-            }
-        }
-        return lit;
-    }
-
-  private:
-    struct Scratch {
-        bake::RowBaker::Scratch baking;
-        std::vector<bake::CoefficientRow> rows;
-    };
-
-    bake::LightTexels texels_;
-    bake::PathTracer tracer_;
-    bake::RowBaker rows_;
-    std::array<std::vector<float>, 3> coefficients_;
-    mutable tbb::enumerable_thread_specific<Scratch> scratches_;
-};
-
-V3d towards_viewer(const transport::MaterialRecord& material,
-                   const brdf::FactoredBrdf& brdf,
-                   const V3f& normal,
-                   const V3f& to_viewer,
-                   const std::vector<V3d>& terms) {
-    V3f local = brdf::local_frame(normal).local_from_world(to_viewer);
-    local.z = std::max(local.z, brdf::kLeastViewCosine);
-    std::vector<float> h(std::size_t{brdf.terms} * brdf.lobes);
-    brdf.h.evaluate(local, h);
-    V3d radiance(0);
-    for (std::uint32_t lobe = 0; lobe < brdf.lobes; ++lobe) {
-        // A texture has its colour in itself: about a half.
-        const V3d colour =
-            material.lobes[lobe].texture ? V3d(0.5) : V3d(material.lobes[lobe].colour);
-        for (std::uint32_t k = 0; k < brdf.terms; ++k) {
-            radiance += colour * double{h[k * brdf.lobes + lobe]} * terms[k];
-        }
-    }
-    return radiance;
+    return colours;
 }
 
 }  // namespace
@@ -123,8 +43,8 @@ InterpolationError interpolation_error(const scene::Scene& scene,
     // two differences has the square of what they share for its mean.
     bake::BakeParameters again = parameters;
     again.seed = transport::mix_bits(parameters.seed + 1);
-    const PointRows rows(to_scene, parameters, light);
-    const PointRows other_rows(to_scene, again, light);
+    const PointRows rows(to_scene, parameters, {&light, 1});
+    const PointRows other_rows(to_scene, again, {&light, 1});
     struct Sums {
         double difference = 0;
         double norm = 0;
@@ -171,12 +91,13 @@ InterpolationError interpolation_error(const scene::Scene& scene,
         const float edge = (surface.mesh.positions[triangle.vertices[0]] -
                             surface.mesh.positions[triangle.vertices[1]])
                                .length();
+        const std::vector<V3f> colours = mean_colours(material);
         const auto seen = [&](const std::vector<V3d>& terms) {
-            return towards_viewer(material, brdf, normal, -direction, terms);
+            return towards_viewer(brdf, colours, normal, -direction, terms);
         };
         const auto number = static_cast<std::uint32_t>(i);
-        const V3d truth = seen(rows.terms(at, brdf, edge, number));
-        const V3d other = seen(other_rows.terms(at, brdf, edge, number));
+        const V3d truth = seen(rows.terms(at, brdf, edge, number).front());
+        const V3d other = seen(other_rows.terms(at, brdf, edge, number).front());
         const V3d shown = seen(interpolated);
         sums[i] = {.difference = (shown - truth).dot(shown - other),
                    .norm = truth.dot(other),
