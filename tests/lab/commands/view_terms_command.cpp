@@ -63,6 +63,9 @@ nlohmann::json json_from(const ViewTermsPanel& panel) {
 
 int run(const Options& options) {
     catch_interruption();
+    if (!options.output.empty()) {
+        std::filesystem::create_directories(options.output);
+    }
     std::vector<bake::CubemapLight> lights;
     for (const std::string& name : options.lights) {
         lights.push_back(cubemap_of_map(name, options.views.face_resolution));
@@ -89,7 +92,6 @@ int run(const Options& options) {
         fmt::print("{}\n", report.dump(2));
     }
     if (!options.output.empty()) {
-        std::filesystem::create_directories(options.output);
         draw_view_terms_chart(std::filesystem::path(options.output) / "view-terms", panels);
     }
     return 0;
