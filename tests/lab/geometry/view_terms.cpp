@@ -70,6 +70,7 @@ class Views {
           caster_(scene),
           rows_(caster_, parameters_of(options), lights),
           materials_(bake::mesh_materials(scene,
+                                          {},
                                           {.method = factors::Method::svd,
                                            .light = factors::LightModel::natural,
                                            .terms = options.most_terms})),
