@@ -1,8 +1,7 @@
 #include "client/cli/edit_options.h"
 
 #include "client/cli/client_error.h"
-#include "protocol/base/files/error.h"
-#include "protocol/base/files/regular_file.h"
+#include "client/cli/option_text.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/strict_json.h"
 #include "protocol/wire/room_patch.h"
@@ -18,43 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-// What a server takes in one message by default.
-constexpr std::size_t kMaxPatchBytes = std::size_t{64} << 10;
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) {
-            return parts;
-        }
-        text.remove_prefix(end + 1);
-    }
-}
-
-std::vector<double> numbers_from_text(std::string_view text,
-                                      std::size_t count,
-                                      std::string_view option,
-                                      std::string_view form) {
-    std::vector<double> numbers;
-    for (const std::string_view part : split(text, ',')) {
-        double number = 0;
-        const auto [end, error] =
-            std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc{} || end != part.data() + part.size()) {
-            numbers.clear();
-            break;
-        }
-        numbers.push_back(number);
-    }
-    if (numbers.size() != count) {
-        throw program::UsageError(
-            fmt::format("{}: found \"{}\", expected {}", option, text, form));
-    }
-    return numbers;
-}
-
 void put_light(json& patch, std::string_view text) {
     constexpr std::string_view kForm = "ID:X,Y,Z:RADIUS_DEGREES:R,G,B";
     const std::vector<std::string_view> parts = split(text, ':');
@@ -63,9 +25,9 @@ void put_light(json& patch, std::string_view text) {
             fmt::format("--light: found \"{}\", expected {}", text, kForm));
     }
     patch["lights"][std::string(parts[0])] = {
-        {"direction", numbers_from_text(parts[1], 3, "--light", kForm)},
-        {"angular_radius_degrees", numbers_from_text(parts[2], 1, "--light", kForm)[0]},
-        {"radiance", numbers_from_text(parts[3], 3, "--light", kForm)}};
+        {"direction", numbers_from_option(parts[1], 3, "--light", kForm)},
+        {"angular_radius_degrees", numbers_from_option(parts[2], 1, "--light", kForm)[0]},
+        {"radiance", numbers_from_option(parts[3], 3, "--light", kForm)}};
 }
 
 void put_triple(json& section,
@@ -73,7 +35,7 @@ void put_triple(json& section,
                 std::string_view text,
                 std::string_view option) {
     if (!text.empty()) {
-        section[key] = numbers_from_text(text, 3, option, "X,Y,Z");
+        section[key] = numbers_from_option(text, 3, option, "X,Y,Z");
     }
 }
 
@@ -115,26 +77,12 @@ json patch_from_text(const std::string& text_or_file) {
     if (text_or_file.empty()) {
         return json::object();
     }
-    std::string json_text = text_or_file;
-    std::string source = "--patch";
-    if (json_text.starts_with('@')) {
-        source = json_text.substr(1);
-        try {
-            json_text = files::read_regular_file(source, kMaxPatchBytes);
-        } catch (const files::FileError& error) {
-            throw ClientError(error.what());
-        }
+    OptionJson patch = json_from_option(text_or_file, "--patch");
+    if (!patch.value.is_object()) {
+        throw ClientError(fmt::format("{}: found {}, expected a JSON object", patch.source,
+                                      text::quote(patch.value)));
     }
-    try {
-        json patch = text::parse_strict_json(json_text, kMaxPatchBytes);
-        if (!patch.is_object()) {
-            throw ClientError(fmt::format("{}: found {}, expected a JSON object", source,
-                                          text::quote(patch)));
-        }
-        return patch;
-    } catch (const text::JsonError& error) {
-        throw ClientError(source + ": " + error.what());
-    }
+    return std::move(patch.value);
 }
 
 json patch_from_options(const EditOptions& options, const std::string& environment) {
@@ -145,7 +93,7 @@ json patch_from_options(const EditOptions& options, const std::string& environme
     }
     if (!options.rotate.empty()) {
         const std::vector<double> degrees =
-            numbers_from_text(options.rotate, 3, "--rotate", "YAW,PITCH,ROLL in degrees");
+            numbers_from_option(options.rotate, 3, "--rotate", "YAW,PITCH,ROLL in degrees");
         patch["rotation"] = {{"yaw_degrees", degrees[0]},
                              {"pitch_degrees", degrees[1]},
                              {"roll_degrees", degrees[2]}};
@@ -168,6 +116,9 @@ json patch_from_options(const EditOptions& options, const std::string& environme
     }
     if (options.coefficients) {
         patch["budget"]["coefficients"] = *options.coefficients;
+    }
+    if (json materials = materials_from_options(options.materials); !materials.empty()) {
+        patch["materials"] = std::move(materials);
     }
     return wire::merge_patches(base, patch);
 }

@@ -1,6 +1,8 @@
 // Edits given as command-line options, as one patch.
 #pragma once
 
+#include "client/cli/material_options.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -17,6 +19,7 @@ struct EditOptions {
     std::string look_at;              // the same
     std::string up;                   // the same, a direction
     std::optional<double> fov_degrees;
+    MaterialOptions materials;
     std::string size;   // "WIDTHxHEIGHT" in pixels
     std::string patch;  // JSON, or @FILE; applied first
     std::string method;
@@ -30,9 +33,9 @@ struct EditOptions {
 [[nodiscard]] nlohmann::json patch_from_text(const std::string& text_or_file);
 
 // `environment` is a name on the server or empty. Empty object when nothing is asked for. The
-// other options are applied over what --patch says. Throws ClientError for the patch and
-// program::UsageError for an option whose form is wrong; ranges and words are for the server to
-// judge.
+// other options are applied over what --patch says. Throws ClientError for the patch and the
+// curves and program::UsageError for an option whose form is wrong; ranges and words are for
+// the server to judge.
 [[nodiscard]] nlohmann::json patch_from_options(const EditOptions& options,
                                                 const std::string& environment);
 

@@ -1,5 +1,6 @@
 #include "client/cli/load_test.h"
 
+#include "client/cli/curve_drag.h"
 #include "client/cli/room_connection.h"
 #include "client/cli/statistics.h"
 
@@ -94,10 +95,12 @@ class Visitor {
             const LoadOptions& options,
             ConnectionOptions connection,
             bool drags,
+            std::uint64_t seed,
             StartingLine& line,
             Tally& tally)
         : options_(options),
           drags_(drags),
+          seed_(seed),
           line_(line),
           tally_(tally),
           connection_(io, std::move(connection), listener()),
@@ -116,8 +119,8 @@ class Visitor {
             if (has_ended_) {
                 return;
             }
-            next_edit_ = Clock::now() + delay;
-            last_edit_by_ = next_edit_ + from_seconds(options_.seconds);
+            next_edit_at_ = Clock::now() + delay;
+            last_edit_by_ = next_edit_at_ + from_seconds(options_.seconds);
             end_by(last_edit_by_ + kGrace);
             if (drags_) {
                 drag();
@@ -139,7 +142,7 @@ class Visitor {
 
   private:
     ConnectionListener listener() {
-        return {.on_snapshot = [this](const wire::Snapshot&) { joined(); },
+        return {.on_snapshot = [this](const wire::Snapshot& s) { joined(s.scene); },
                 .on_change = [](const wire::Change&) {},
                 .on_error =
                     [this](const wire::ErrorMessage& e) {
@@ -160,8 +163,11 @@ class Visitor {
         });
     }
 
-    void joined() {
+    void joined(const wire::SceneSummary& scene) {
         opened = true;
+        if (drags_ && !scene.materials.empty()) {
+            curve_drag_.emplace(scene.materials, seed_);
+        }
         if (!drags_) {
             arrive();
         }
@@ -176,23 +182,31 @@ class Visitor {
     }
 
     void drag() {
-        beat_.expires_at(next_edit_);
+        beat_.expires_at(next_edit_at_);
         beat_.async_wait([this](const boost::system::error_code& error) {
-            if (error || next_edit_ >= last_edit_by_) {
+            if (error || next_edit_at_ >= last_edit_by_) {
                 return;
             }
-            yaw_degrees_ += kDegreesPerEdit;
             nlohmann::json patch = edits == 0 ? options_.patch : nlohmann::json::object();
-            patch["rotation"] = {{"yaw_degrees", yaw_degrees_}};
+            patch.merge_patch(next_edit());
             if (edits == 0 && options_.budget_ms) {
                 patch["budget"]["milliseconds"] = *options_.budget_ms;
             }
             connection_.send_edit(patch);
             ++edits;
             ++tally_.edits;
-            next_edit_ += from_seconds(1 / options_.rate_hz);
+            next_edit_at_ += from_seconds(1 / options_.rate_hz);
             drag();
         });
+    }
+
+    // Where materials are edited a hand draws over their curves, else it turns the light.
+    nlohmann::json next_edit() {
+        if (curve_drag_) {
+            return curve_drag_->next();
+        }
+        yaw_degrees_ += kDegreesPerEdit;
+        return {{"rotation", {{"yaw_degrees", yaw_degrees_}}}};
     }
 
     void image(const ReceivedImage& received) {
@@ -227,6 +241,7 @@ class Visitor {
 
     const LoadOptions& options_;
     bool drags_;
+    std::uint64_t seed_;
     StartingLine& line_;
     Tally& tally_;
     Clock::time_point opened_at_;
@@ -234,7 +249,8 @@ class Visitor {
     bool has_ended_ = false;
     bool lasted_ = false;
     double yaw_degrees_ = 0;
-    Clock::time_point next_edit_;
+    std::optional<CurveDrag> curve_drag_;
+    Clock::time_point next_edit_at_;
     Clock::time_point last_edit_by_;  // set once everybody is there
     RoomConnection connection_;
     asio::steady_timer beat_;
@@ -267,7 +283,7 @@ nlohmann::json run_load_test(const LoadOptions& options) {
     for (std::size_t i = 0; i < count; ++i) {
         const bool drags = i < options.dragging;
         visitors.push_back(std::make_unique<Visitor>(
-            io, options, connection_options(options, drags), drags, line, tally));
+            io, options, connection_options(options, drags), drags, i, line, tally));
     }
     for (const auto& visitor : visitors) {
         visitor->open();

@@ -72,6 +72,9 @@ void render(const RenderOptions& options) {
                                     : environment_on_server(server, options.server.token,
                                                             options.environment, options.map);
     nlohmann::json patch = patch_from_options(options.edits, environment);
+    if (!options.scene.empty() && patch.contains("materials")) {
+        require_materials(server, options.scene, patch["materials"]);
+    }
     // A room settles where its target error lets it. One that is not ours stays as it is unless
     // it is edited anyway.
     if (is_private || !patch.empty()) {
@@ -113,6 +116,21 @@ void add_camera_options(CLI::App& command, EditOptions& edits) {
     command.add_option("--size", edits.size, "WIDTHxHEIGHT of the image, in pixels");
 }
 
+void add_material_options(CLI::App& command, MaterialOptions& materials) {
+    command
+        .add_option("--curve", materials.curves,
+                    "MATERIAL=JSON or MATERIAL=@FILE: the curve of a material, as 256 samples "
+                    "or an object such as {\"shape\":\"ggx\",\"roughness\":0.1}; may be "
+                    "given several times")
+        ->take_all();
+    command
+        .add_option("--diffuse", materials.diffuses,
+                    "MATERIAL=R,G,B times the material's diffuse colour as baked")
+        ->take_all();
+    command.add_option("--tint", materials.tints, "MATERIAL=R,G,B times the material's curve")
+        ->take_all();
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app) {
@@ -132,6 +150,7 @@ void add_render_command(CLI::App& app) {
                      "round light ID:X,Y,Z:RADIUS_DEGREES:R,G,B; may be given several times")
         ->take_all();
     add_camera_options(*command, options->edits);
+    add_material_options(*command, options->edits.materials);
     command->add_option(
         "--patch", options->edits.patch,
         "lighting as a JSON merge patch, or @FILE with one, as the page exports "

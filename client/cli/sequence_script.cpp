@@ -103,6 +103,14 @@ Step camera_from(ObjectReader reader) {
     return move;
 }
 
+Step material_from(ObjectReader reader) {
+    ChangeMaterial step{.change = material_change_from(reader),
+                        .images = images_from(reader),
+                        .ease = ease_from(reader)};
+    reader.refuse_other_keys();
+    return step;
+}
+
 Step rest_from(ObjectReader reader) {
     Rest rest;
     const json& until = reader.require("until");
@@ -142,15 +150,18 @@ Step step_from(const json& value, const std::string& path) {
     take("move_light", move_light_from);
     take("blend", blend_from);
     take("camera", camera_from);
+    take("material", material_from);
     take("rest", rest_from);
     if (reader.find("patch") != nullptr) {
         found.emplace_back(ApplyPatch{.patch = patch_from(reader, "patch")});
     }
     reader.refuse_other_keys();
     if (found.size() != 1) {
-        throw wire::WireError(wire::ErrorCode::missing_field, path,
-                              std::to_string(found.size()) + " kinds of step",
-                              "exactly one of rotate, move_light, blend, camera, rest, patch");
+        throw wire::WireError(
+            wire::ErrorCode::missing_field, path,
+            std::to_string(found.size()) + " kinds of step",
+            "exactly one of rotate, move_light, blend, camera, material, rest, "
+            "patch");
     }
     return std::move(found.front());
 }
@@ -225,6 +236,7 @@ std::uint32_t edit_count(const Step& step) {
         std::uint32_t operator()(const MoveLight& move) const { return move.images; }
         std::uint32_t operator()(const BlendOver& blend) const { return blend.images; }
         std::uint32_t operator()(const MoveCamera& move) const { return move.images; }
+        std::uint32_t operator()(const ChangeMaterial& step) const { return step.images; }
         std::uint32_t operator()(const ApplyPatch&) const { return 1; }
         std::uint32_t operator()(const Rest&) const { return 0; }
     };
@@ -250,6 +262,9 @@ json patch_of(const Step& step, std::uint32_t index) {
     }
     if (const auto* camera = std::get_if<MoveCamera>(&step)) {
         return camera->path.patch_at(way_at(index, camera->images, camera->ease));
+    }
+    if (const auto* material = std::get_if<ChangeMaterial>(&step)) {
+        return material->change.patch_at(way_at(index, material->images, material->ease));
     }
     if (const auto* apply = std::get_if<ApplyPatch>(&step)) {
         return apply->patch;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "client/cli/camera_path.h"
+#include "client/cli/material_change.h"
 
 #include <Imath/ImathVec.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,11 @@ struct MoveCamera {
     std::uint32_t images = 2;
     Ease ease = Ease::linear;
 };
+struct ChangeMaterial {
+    MaterialChange change;
+    std::uint32_t images = 1;
+    Ease ease = Ease::linear;
+};
 // One edit.
 struct ApplyPatch {
     nlohmann::json patch;
@@ -62,7 +68,8 @@ struct Rest {
     std::optional<double> seconds;  // none: until exact
     double timeout_seconds = 300;   // how long to wait for exact
 };
-using Step = std::variant<Rotate, MoveLight, BlendOver, MoveCamera, ApplyPatch, Rest>;
+using Step =
+    std::variant<Rotate, MoveLight, BlendOver, MoveCamera, ChangeMaterial, ApplyPatch, Rest>;
 
 struct SequenceScript {
     std::string scene;                                // may be empty

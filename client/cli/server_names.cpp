@@ -13,11 +13,14 @@
 namespace relume::cli {
 namespace {
 
-std::vector<std::string> names_of(const Url& server, const std::string& kind) {
+nlohmann::json list_of(const Url& server, const std::string& kind) {
     const std::string target = "/api/" + kind;
-    const nlohmann::json answer = json_from_answer(http_get(server, target), "GET " + target);
+    return json_from_answer(http_get(server, target), "GET " + target).at(kind);
+}
+
+std::vector<std::string> names_of(const Url& server, const std::string& kind) {
     std::vector<std::string> names;
-    for (const auto& entry : answer.at(kind)) {
+    for (const auto& entry : list_of(server, kind)) {
         names.push_back(entry.at("name").get<std::string>());
     }
     return names;
@@ -31,6 +34,18 @@ std::vector<std::string> scenes_of(const Url& server) {
 
 std::vector<std::string> environments_of(const Url& server) {
     return names_of(server, "environments");
+}
+
+std::vector<std::string> materials_of(const Url& server, const std::string& scene) {
+    std::vector<std::string> names;
+    for (const auto& entry : list_of(server, "scenes")) {
+        if (entry.at("name") == scene && entry.contains("materials")) {
+            for (const auto& material : entry.at("materials")) {
+                names.push_back(material.at("id").get<std::string>());
+            }
+        }
+    }
+    return names;
 }
 
 void require_scene(const Url& server, const std::string& scene) {

@@ -11,6 +11,11 @@ namespace relume::cli {
 [[nodiscard]] std::vector<std::string> scenes_of(const Url& server);
 [[nodiscard]] std::vector<std::string> environments_of(const Url& server);
 
+// Of those that can be edited in the scene; none where the scene has no such, or the server has
+// no such scene.
+[[nodiscard]] std::vector<std::string> materials_of(const Url& server,
+                                                    const std::string& scene);
+
 // Throws ClientError, naming the scenes that resemble it, unless the server has the scene.
 void require_scene(const Url& server, const std::string& scene);
 

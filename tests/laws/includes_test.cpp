@@ -106,7 +106,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
          {"protocol/wire", "server/engine/sums", "protocol/light", "server/net/base",
           "server/net/http", "server/net/library", "server/net/peers", "server/net/rooms",
           "server/net/sockets"}},
-        {"client/cli", {"protocol/relighting", "protocol/wire"}},
+        {"client/cli", {"protocol/curve", "protocol/relighting", "protocol/wire"}},
     };
     return allowed;
 }

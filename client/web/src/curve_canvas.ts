@@ -98,7 +98,7 @@ export class CurveCanvas {
         }
     }
 
-    /** Without `channels` it is the ghost. Where the colours agree, one white line stands for all. */
+    /** Without `channels` it is the ghost. One white line stands for colours that agree. */
     private drawCurve(
         context: CanvasRenderingContext2D,
         axes: CurveAxes,

@@ -1,7 +1,7 @@
 /** Sliders that move the curve, and the colours of curve and diffuse reflection. */
 import type { FolderApi } from "tweakpane";
 import { brightnessFromLinear, linearFromBrightness } from "./colour";
-import { amountText } from "./format";
+import { amountText, stopsText } from "./format";
 import { understandKelvin } from "./kelvin";
 import type { Materials } from "./materials";
 import { labelFields } from "./pane_labels";
@@ -44,8 +44,10 @@ const kShapeRanges: {
 };
 
 const kTriples = new Set<string>(["n", "e", "f0", "value"]);
-/** The slider's; all that the server takes can be typed. */
-const kUsualStrength = 4;
+/** At the lower end of its range a colour is off. */
+const kOffStops = -8;
+const kMaxStops = 5;
+/** Of sliders: files and the command line take more. */
 const kUsualValue = 10;
 const kUsualExponent = 2000;
 
@@ -66,9 +68,9 @@ export class MaterialControls {
         f0: { x: 0, y: 0, z: 0 },
         value: { x: 1, y: 1, z: 1 },
         tint: "#ffffff",
-        tintStrength: 1,
+        tintStops: 0,
         diffuse: "#ffffff",
-        diffuseStrength: 1,
+        diffuseStops: 0,
     };
     private built = "";
 
@@ -101,7 +103,7 @@ export class MaterialControls {
         }
         for (const key of ["tint", "diffuse"] as const) {
             const { intensity, colour } = brightnessFromLinear(edit[key]);
-            model[`${key}Strength`] = intensity;
+            model[`${key}Stops`] = intensity > 0 ? Math.log2(intensity) : kOffStops;
             if (intensity > 0) model[key] = colour;
         }
         const wanted = `${selected.id} ${model.shape}`;
@@ -184,9 +186,9 @@ export class MaterialControls {
 
     private addColours(): void {
         const { model } = this;
-        for (const [key, title, label] of [
-            ["tint", "Colour of the curve", "times the curve"],
-            ["diffuse", "Diffuse colour", "times as baked"],
+        for (const [key, title] of [
+            ["tint", "Colour of the curve"],
+            ["diffuse", "Diffuse colour"],
         ] as const) {
             const folder = this.controls.pane.addFolder({ title });
             const change = ({ last }: { last?: boolean }): void => {
@@ -203,12 +205,12 @@ export class MaterialControls {
             colour.element.title = "A colour (#ffcc88) or a temperature (3200K)";
             colour.on("change", change);
             folder
-                .addBinding(model, `${key}Strength`, {
-                    label,
-                    min: 0,
-                    max: kUsualStrength,
+                .addBinding(model, `${key}Stops`, {
+                    label: `${key} EV`,
+                    min: kOffStops,
+                    max: kMaxStops,
                     step: 0.01,
-                    format: amountText,
+                    format: (stops) => (stops <= kOffStops ? "off" : stopsText(stops)),
                 })
                 .on("change", change);
         }
@@ -216,11 +218,9 @@ export class MaterialControls {
     }
 
     private colour(key: "tint" | "diffuse"): Triple {
-        const colour = this.model[key];
-        const linear = linearFromBrightness({
-            intensity: this.model[`${key}Strength`],
-            colour,
-        });
+        const stops = this.model[`${key}Stops`];
+        const intensity = stops <= kOffStops ? 0 : 2 ** stops;
+        const linear = linearFromBrightness({ intensity, colour: this.model[key] });
         return linear.map((part) => Number(part.toPrecision(6))) as Triple;
     }
 }

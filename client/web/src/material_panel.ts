@@ -13,6 +13,10 @@ export function editsMaterials(connection: RoomConnection): boolean {
     return scene?.edits?.includes("materials") === true && (scene.materials ?? []).length > 0;
 }
 
+const kRemark =
+    "Light, view and interreflection stay as they were baked: an edited material is not seen " +
+    "in the light that it throws on others.";
+
 export class MaterialPanel {
     readonly editor: CurveEditor;
     private readonly list = make("ul", "material-list", { "aria-label": "Materials" });
@@ -67,6 +71,7 @@ export class MaterialPanel {
             curve,
             this.presets,
             controls,
+            make("p", "pane-remark", {}, kRemark),
         );
         this.editor = new CurveEditor(curve, connection, materials);
         new MaterialControls(controls, connection, materials);

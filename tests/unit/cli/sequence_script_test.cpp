@@ -58,6 +58,41 @@ TEST(SequenceScripts, TheDocumentedOneIsTakenAndAServerWouldTakeItsEdits) {
     EXPECT_TRUE(state.lights.at("key").direction.equalWithAbsError(end, 1e-12));
 }
 
+TEST(SequenceScripts, AMaterialGoesFromOneStateToAnother) {
+    const SequenceScript script = sequence_script_from_text(with_step(
+        R"({"material": {"id": "pearl", "shape": "ggx", "roughness": [0.3, 0.1],
+                         "diffuse": [[1, 1, 1], [0, 1, 3]], "images": 3}})"));
+    const Step& step = script.steps.at(0);
+    ASSERT_EQ(edit_count(step), 3U);
+    const auto pearl = [&](std::uint32_t i) {
+        return patch_of(step, i).at("materials").at("pearl");
+    };
+    EXPECT_EQ(pearl(0),
+              json::parse(R"({"shape": "ggx", "roughness": 0.3, "diffuse": [1,1,1]})"));
+    EXPECT_DOUBLE_EQ(pearl(1).at("roughness"), 0.2);
+    EXPECT_EQ(pearl(1).at("diffuse"), json({0.5, 1.0, 2.0}));
+    EXPECT_DOUBLE_EQ(pearl(2).at("roughness"), 0.1);
+}
+
+TEST(SequenceScripts, AMaterialThatIsWrongIsNamed) {
+    const auto refused = [](const std::string& material) {
+        return message_for(with_step(R"({"material": )" + material + "}"));
+    };
+    const std::string nothing = refused(R"({"id": "pearl", "images": 2})");
+    EXPECT_NE(nothing.find("nothing that changes"), std::string::npos) << nothing;
+    EXPECT_NE(nothing.find("roughness"), std::string::npos) << nothing;
+    const std::string one = refused(R"({"id": "pearl", "roughness": [0.1], "images": 2})");
+    EXPECT_NE(one.find("/steps/0/material/roughness"), std::string::npos) << one;
+    const std::string high = refused(R"({"id": "pearl", "f90": [0, 2], "images": 2})");
+    EXPECT_NE(high.find("/steps/0/material/f90/1"), std::string::npos) << high;
+    const std::string shape =
+        refused(R"({"id": "pearl", "shape": "gx", "roughness": [0.1, 0.2], "images": 2})");
+    EXPECT_NE(shape.find("ggx"), std::string::npos) << shape;
+    EXPECT_NE(refused(R"({"id": "pearl", "gloss": [0, 1], "f90": [0, 1], "images": 2})")
+                  .find("gloss"),
+              std::string::npos);
+}
+
 TEST(SequenceScripts, FaultsAreNamedByPlace) {
     struct Case {
         std::string text;
