@@ -214,6 +214,18 @@ TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
     EXPECT_LT(figures.at("error_5_images_after_rest").get<double>(), 0.02);
 }
 
+TEST_F(ProgramTest, ViewTermsLeavesAChartAndErrorsOfEveryNumberOfTerms) {
+    const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
+        RELUME_LAB,
+        {"view-terms", "--scenes", "box", "--lights", "sky-noon", "--views", "2", "--side", "8",
+         "--light-resolution", "8", "--terms", "3", "--json", "-o", output().string()},
+        scratch_.path(), "relume-lab"));
+    const nlohmann::json& errors = found.at("box").at("sky-noon").at("errors");
+    ASSERT_EQ(errors.size(), 3U);
+    EXPECT_LT(errors[0].get<double>(), 1e-4);  // all of it is diffuse
+    EXPECT_NE(content_of(output() / "view-terms.svg").find("</svg>"), std::string::npos);
+}
+
 TEST_F(ProgramTest, AMistakeEndsInWords) {
     test::Program run(RELUME_LAB,
                       {"run", "--transport", "/nowhere.relume", "--environment", "sky-noon"},

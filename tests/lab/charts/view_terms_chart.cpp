@@ -13,7 +13,7 @@ void draw_view_terms_chart(const std::filesystem::path& stem,
     chart.commands = chart_style() + fmt::format(
                                          "set multiplot layout 1,{}\nset xlabel 'K, terms'\n"
                                          "set ylabel 'relative L2 error of the image, %'\n"
-                                         "set logscale y\nset xtics 1\nset key top right\n",
+                                         "set logscale y\nset xtics 1\nset key bottom left\n",
                                          panels.size());
     for (std::size_t i = 0; i < panels.size(); ++i) {
         std::string plot = "plot ";
