@@ -135,7 +135,8 @@ export class MaterialControls {
         const { shapeFolder, model } = this;
         for (const field of kParameters[shape]) {
             const range = this.range(shape, field);
-            const options = { min: range.lowest, max: range.highest, step: 0.001 };
+            // Without a step, which would count from the value that happens to be there.
+            const options = { min: range.lowest, max: range.highest };
             const binding =
                 shape === "dielectric" && field === "n"
                     ? shapeFolder.addBinding(model.n, "y", { ...options, label: "n" })
@@ -150,7 +151,7 @@ export class MaterialControls {
                             ...options,
                             label: field,
                             ...(field === "exponent"
-                                ? { step: 1, max: kUsualExponent }
+                                ? { max: kUsualExponent }
                                 : { format: amountText }),
                         });
             binding.on("change", ({ last }) => {

@@ -71,7 +71,7 @@ export class MaterialPanel {
             curve,
             this.presets,
             controls,
-            make("p", "pane-remark", {}, kRemark),
+            make("p", "material-remark", {}, kRemark),
         );
         this.editor = new CurveEditor(curve, connection, materials);
         new MaterialControls(controls, connection, materials);
