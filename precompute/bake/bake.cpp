@@ -1,11 +1,11 @@
 #include "precompute/bake/bake.h"
 
 #include "precompute/bake/base/error.h"
-#include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/image_subject.h"
 #include "precompute/bake/mesh/mesh_subject.h"
 #include "precompute/bake/peak_memory.h"
+#include "precompute/bake/rows/traced_receivers.h"
 #include "precompute/bake/version.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/timing/stopwatch.h"
@@ -121,16 +121,12 @@ class Bake {
           directory_(directory),
           caster_(scene),
           subject_(make_subject(caster_, parameters, measured, hooks)),
-          texels_(parameters.face_resolution, parameters.seed),
-          tracer_(caster_, parameters_),
-          traced_(subject_->receivers(), tracer_, parameters_),
-          rows_(caster_, texels_, parameters_),
           progress_(hooks, subject_->receivers().receiver_count()) {
         TracedReceivers::check_memory(subject_->receivers(), parameters);
         subject_->check();
+        rows_ = subject_->rows();
         manifest_.generator = generator();
         subject_->describe(manifest_);
-        manifest_.signal_basis = signal_basis(parameters);
         manifest_.stating_rows = kStatingRows;
         manifest_.choosing_rows = kChoosingRows;
         manifest_.bake = json_from_parameters(parameters);
@@ -146,14 +142,14 @@ class Bake {
         const Receivers& receivers = subject_->receivers();
         {
             const AddedTime adding(summary_.pilot_seconds);
-            quantisation_ = plan_quantisation(rows_, receivers, tracer_, parameters_);
+            quantisation_ = plan_quantisation(*rows_, parameters_.bits, parameters_.seed);
         }
         manifest_.colour = quantisation_.colour;
         shards_ = shards_of(receivers);
         transport::TransportWriter writer(directory_, manifest_, plan_of(shards_));
         const ShardNotesFolder notes(directory_, manifest_.fingerprint);
         summary_.shards = writer.plan().shard_count();
-        const ShardBaker shards(rows_, traced_, quantisation_, parameters_.seed);
+        const ShardBaker shards(*rows_, quantisation_, parameters_.seed);
         for (std::uint32_t shard = 0; shard < summary_.shards; ++shard) {
             bake_shard(shard, shards, writer, notes);
         }
@@ -181,7 +177,7 @@ class Bake {
         {
             const AddedTime adding(summary_.path_seconds);
             summary_.path_rays +=
-                traced_.move_to(clusters.first_cluster, clusters.cluster_count);
+                rows_->move_to(clusters.first_cluster, clusters.cluster_count);
         }
         const AddedTime adding(summary_.row_seconds);
         const BakedShard baked =
@@ -209,7 +205,7 @@ class Bake {
             samples.insert(samples.end(), noted->samples.begin(), noted->samples.end());
         }
         tables.coverage = coverage_of_slots();
-        writer.state_sampling_error(sampling_error(samples));
+        writer.state_sampling_error(subject_->sampling_error(samples));
         subject_->write_tables(writer);
         nlohmann::json measured = subject_->measured();
         measured["quantisation_error"] = json_from_errors(errors);
@@ -238,25 +234,11 @@ class Bake {
         return slots;
     }
 
-    [[nodiscard]] transport::SamplingError sampling_error(
-        std::span<const ClusterSample> samples) const {
-        BakeParameters parameters = parameters_;
-        parameters.seed = other_seed(parameters_);
-        const std::unique_ptr<const Receivers> other =
-            subject_->receivers_looked_at(parameters);
-        return measure_sampling_error(caster_, subject_->receivers(),
-                                      other ? *other : subject_->receivers(), parameters_,
-                                      samples);
-    }
-
     BakeParameters parameters_;
     std::filesystem::path directory_;
     RayCaster caster_;
     std::unique_ptr<BakeSubject> subject_;
-    LightTexels texels_;
-    PathTracer tracer_;
-    TracedReceivers traced_;
-    RowBaker rows_;
+    std::unique_ptr<RowSource> rows_;
     ProgressCounter progress_;
     transport::Manifest manifest_;
     Quantisation quantisation_;

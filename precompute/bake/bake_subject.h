@@ -1,7 +1,8 @@
 // What a bake is of: receivers of one kind, and what a transport of that kind has beside rows.
 #pragma once
 
-#include "precompute/bake/base/parameters.h"
+#include "precompute/bake/blocks/cluster_sample.h"
+#include "precompute/bake/blocks/row_source.h"
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/transport_writer.h"
@@ -10,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace relume::bake {
@@ -22,13 +24,15 @@ class BakeSubject {
     virtual ~BakeSubject() = default;
 
     [[nodiscard]] virtual const Receivers& receivers() const = 0;
-    // The same receivers looked at with other parameters; null where these change nothing.
-    [[nodiscard]] virtual std::unique_ptr<const Receivers> receivers_looked_at(
-        const BakeParameters& parameters) const = 0;
+    // Rows of the receivers. The subject outlives them.
+    [[nodiscard]] virtual std::unique_ptr<RowSource> rows() const = 0;
+    // From a sample for every cluster, of which the rows are baked.
+    [[nodiscard]] virtual transport::SamplingError sampling_error(
+        std::span<const ClusterSample> samples) const = 0;
     // Throws BakeError where no receiver sees a surface.
     virtual void check() const = 0;
-    // Sets what the manifest says of the receivers, and the fingerprint of a bake of them by
-    // the manifest's generator.
+    // Sets what the manifest says of the receivers and of the signal, and the fingerprint of a
+    // bake of them by the manifest's generator.
     virtual void describe(transport::Manifest& manifest) const = 0;
 
     // What was found out about them before the bake: more of the manifest's `measured`.

@@ -1,5 +1,7 @@
 #include "precompute/bake/image_subject.h"
 
+#include "precompute/bake/blocks/light_rows.h"
+#include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/fingerprint.h"
 #include "precompute/bake/framing.h"
 
@@ -25,9 +27,16 @@ ImageSubject::ImageSubject(const RayCaster& caster, const BakeParameters& parame
       parameters_(parameters),
       pixels_(caster, parameters) {}
 
-std::unique_ptr<const Receivers> ImageSubject::receivers_looked_at(
-    const BakeParameters& parameters) const {
-    return std::make_unique<PixelReceivers>(caster_, parameters);
+std::unique_ptr<RowSource> ImageSubject::rows() const {
+    return std::make_unique<LightRows>(caster_, pixels_, parameters_);
+}
+
+transport::SamplingError ImageSubject::sampling_error(
+    std::span<const ClusterSample> samples) const {
+    BakeParameters with_other_seed = parameters_;
+    with_other_seed.seed = other_seed(parameters_);
+    const PixelReceivers other(caster_, with_other_seed);
+    return measure_sampling_error(caster_, pixels_, other, parameters_, samples);
 }
 
 void ImageSubject::check() const {
@@ -36,6 +45,7 @@ void ImageSubject::check() const {
 
 void ImageSubject::describe(transport::Manifest& manifest) const {
     manifest.kind = transport::Kind::image;
+    manifest.signal_basis = signal_basis(parameters_);
     manifest.layout = transport::ReceiverLayout::pixel_tiles(pixels_.image());
     manifest.block_basis = transport::BlockBasis::haar_tile;
     manifest.camera = record_of(pixels_.camera(), scene_.frame);

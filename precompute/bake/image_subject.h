@@ -13,8 +13,9 @@ class ImageSubject final : public BakeSubject {
     ImageSubject(const RayCaster& caster, const BakeParameters& parameters);
 
     [[nodiscard]] const Receivers& receivers() const override { return pixels_; }
-    [[nodiscard]] std::unique_ptr<const Receivers> receivers_looked_at(
-        const BakeParameters& parameters) const override;
+    [[nodiscard]] std::unique_ptr<RowSource> rows() const override;
+    [[nodiscard]] transport::SamplingError sampling_error(
+        std::span<const ClusterSample> samples) const override;
     void check() const override;
     void describe(transport::Manifest& manifest) const override;
     [[nodiscard]] nlohmann::json measured() const override;

@@ -2,6 +2,7 @@
 
 #include "precompute/bake/blocks/colour_split.h"
 #include "precompute/bake/blocks/light_model.h"
+#include "precompute/bake/blocks/light_rows.h"
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/bake/rows/row_baker.h"
 #include "precompute/scene/builtin.h"
@@ -28,7 +29,10 @@ class TileSampler {
           traced_(receivers_, tracer_, parameters),
           rows_(caster_, texels_, parameters),
           pool_(traced_),
-          quantisation_(bake::plan_quantisation(rows_, receivers_, tracer_, parameters)) {}
+          quantisation_(
+              bake::plan_quantisation(bake::LightRows(caster_, receivers_, parameters),
+                                      parameters.bits,
+                                      parameters.seed)) {}
 
     [[nodiscard]] const bake::Quantisation& quantisation() const { return quantisation_; }
 

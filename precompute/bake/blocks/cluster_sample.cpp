@@ -20,14 +20,14 @@ double squared(double value) {
 }
 
 // By kind of light.
-using Likely = std::array<double, kLightKinds>;
+using Likely = std::array<double, kSignalKinds>;
 
 template <typename ErrorOf>
 Likely sum_by_kind(ErrorOf error_of) {
     Likely sums{};
-    for (std::size_t i = 0; i < kModelLights; ++i) {
+    for (std::size_t i = 0; i < kModelSignals; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            sums[i / kLightsPerKind] += error_of(i, c);
+            sums[i / kSignalsPerKind] += error_of(i, c);
         }
     }
     return sums;
@@ -51,7 +51,7 @@ Likely likely_error(const Receivers& receivers,
         const Likely difference = sum_by_kind([&](std::size_t i, std::size_t c) {
             return squared(of.colours[i][c] - found->colours[i][c]);
         });
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             likely[kind] +=
                 kOfDifference * difference[kind] / static_cast<double>(scratch.size());
         }
@@ -74,7 +74,7 @@ ClusterSample sample_cluster(const Receivers& receivers,
         likely.push_back(likely_error(receivers, lit, receiver, scratch));
         const Likely energy = sum_by_kind(
             [&](std::size_t i, std::size_t c) { return squared(receiver.colours[i][c]); });
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             sample.kinds[kind].energy += energy[kind];
             sample.kinds[kind].likely += likely.back()[kind];
         }
@@ -84,9 +84,9 @@ ClusterSample sample_cluster(const Receivers& receivers,
     const auto uniform = 1 / static_cast<double>(lit.size());
     for (std::size_t i = 0; i < lit.size(); ++i) {
         probability[i] = kAnyone * uniform;
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             const double sum = sample.kinds[kind].likely;
-            probability[i] += (1 - kAnyone) / static_cast<double>(kLightKinds) *
+            probability[i] += (1 - kAnyone) / static_cast<double>(kSignalKinds) *
                               (sum > 0 ? likely[i][kind] / sum : uniform);
         }
     }

@@ -2,7 +2,7 @@
 // shows of them: what the bake's sampling error is estimated from (sampling_error.h).
 #pragma once
 
-#include "precompute/bake/blocks/model_lights.h"
+#include "precompute/bake/blocks/model_signals.h"
 #include "precompute/bake/receivers/receivers.h"
 
 #include <array>
@@ -27,7 +27,7 @@ struct SampledReceiver {
 struct ClusterSample {
     static constexpr std::size_t kDraws = 6;
 
-    std::array<KindSums, kLightKinds> kinds{};
+    std::array<KindSums, kSignalKinds> kinds{};
     std::uint32_t receiver_count = 0;  // of those that see anything
     std::uint32_t drawn = 0;           // kDraws, or 0 where none sees anything
     std::array<SampledReceiver, kDraws> draws{};

@@ -27,7 +27,7 @@ void ErrorMeter::measure_stored(std::span<const float> stored,
     const std::size_t columns = stored.size() / colour.channels;
     for (std::size_t k = 0; k < colour.channels; ++k) {
         const auto values = lights_.products(stored.subspan(k * columns, columns));
-        for (std::size_t i = 0; i < kModelLights; ++i) {
+        for (std::size_t i = 0; i < kModelSignals; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
                 light.stored[i][c] +=
                     double{tint[static_cast<int>(c)]} * colour.matrix[c][k] * values[i];
@@ -38,8 +38,8 @@ void ErrorMeter::measure_stored(std::span<const float> stored,
 
 BlockErrors ErrorMeter::errors(const ClusterPatch& patch, std::span<const LitReceiver> lit) {
     BlockErrors sums;
-    for (std::size_t i = 0; i < kModelLights; ++i) {
-        ErrorSums& sum = sums[i / kLightsPerKind];
+    for (std::size_t i = 0; i < kModelSignals; ++i) {
+        ErrorSums& sum = sums[i / kSignalsPerKind];
         for (std::size_t c = 0; c < 3; ++c) {
             const auto error = [&](std::size_t p) {
                 return lit[p].stored[i][c] - lit[p].exact[i][c];
@@ -61,7 +61,7 @@ BlockErrors ErrorMeter::errors(const ClusterPatch& patch, std::span<const LitRec
 nlohmann::json json_from_errors(std::span<const BlockErrors> blocks) {
     BlockErrors total;
     for (const BlockErrors& block : blocks) {
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             total[kind].add(block[kind]);
         }
     }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "precompute/bake/blocks/colour_split.h"
-#include "precompute/bake/blocks/model_lights.h"
+#include "precompute/bake/blocks/model_signals.h"
 #include "precompute/bake/blocks/pilot.h"
 #include "precompute/bake/receivers/receivers.h"
 
@@ -27,12 +27,12 @@ struct ErrorSums {
     void add(const ErrorSums& other);
 };
 
-using BlockErrors = std::array<ErrorSums, kLightKinds>;
+using BlockErrors = std::array<ErrorSums, kSignalKinds>;
 
 class ErrorMeter {
   public:
     // Keeps references to both.
-    ErrorMeter(const ModelLights& lights, const Quantisation& quantisation)
+    ErrorMeter(const ModelSignals& lights, const Quantisation& quantisation)
         : lights_(lights), quantisation_(quantisation) {}
 
     // B and B̃ of a receiver under every light, in red, green and blue.
@@ -50,7 +50,7 @@ class ErrorMeter {
                                             std::span<const LitReceiver> lit);
 
   private:
-    const ModelLights& lights_;
+    const ModelSignals& lights_;
     const Quantisation& quantisation_;
 };
 

@@ -82,4 +82,24 @@ std::vector<float> sun_light(const basis::CubemapProjection& projection, std::ui
     return light;
 }
 
+SignalModel light_signals(const basis::CubemapProjection& projection) {
+    const basis::CubemapBasis& basis = projection.basis();
+    SignalModel model;
+    for (std::uint64_t i = 0; i < kSignalsPerKind; ++i) {
+        model.signals.push_back(natural_light(basis, i));
+    }
+    for (std::uint64_t i = 0; i < kSignalsPerKind; ++i) {
+        model.signals.push_back(sun_light(projection, i));
+    }
+    for (std::size_t j = 0; j < basis.coefficient_count(); ++j) {
+        model.band.push_back(basis.band_from_coefficient(j));
+    }
+    for (std::uint32_t band = 0; band < basis.band_count(); ++band) {
+        const double octave = basis.octave_from_band(band);
+        model.natural_weight.push_back(std::exp2(-2.0 * double{kNaturalFalloff} * octave));
+        model.step_growth.push_back(std::exp2(kStepGrowth * basis.octave_from_band(band)));
+    }
+    return model;
+}
+
 }  // namespace relume::bake

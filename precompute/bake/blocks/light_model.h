@@ -2,6 +2,7 @@
 // measure what they cost: no map is at hand when a scene is baked.
 #pragma once
 
+#include "precompute/bake/blocks/signal_model.h"
 #include "protocol/basis/cubemap_projection.h"
 
 #include <cstdint>
@@ -24,5 +25,9 @@ inline constexpr float kNaturalFalloff = 0.25F;
 [[nodiscard]] std::vector<float> natural_deviations(const basis::CubemapBasis& basis);
 [[nodiscard]] std::vector<float> sun_light(const basis::CubemapProjection& projection,
                                            std::uint64_t seed);
+
+// Steps grow with the octave, and natural light falls with it: step_chooser.h says why.
+inline constexpr float kStepGrowth = 0.7F;  // β
+[[nodiscard]] SignalModel light_signals(const basis::CubemapProjection& projection);
 
 }  // namespace relume::bake

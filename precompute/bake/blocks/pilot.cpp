@@ -51,22 +51,20 @@ std::array<ReceiverGroup, 2> receiver_groups(const Receivers& receivers) {
 struct Scratch {
     std::vector<CoefficientRow> terms;
     ChannelRow channels;
-    RowBaker::Scratch rows;
 };
 
 // What one channel would lose of the image, as relative L2.
-double measure_chroma(const RowBaker& rows,
-                      const Receivers& receivers,
-                      const PathTracer& tracer) {
+double measure_chroma(const RowSource& rows) {
     tbb::enumerable_thread_specific<Scratch> scratches;
     ChromaResidual total;
-    for (const ReceiverGroup& group : receiver_groups(receivers)) {
+    for (const ReceiverGroup& group : receiver_groups(rows.receivers())) {
         const std::vector<std::size_t> some = group.some();
         std::vector<ChromaResidual> residuals(some.size());
         tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
             Scratch& scratch = scratches.local();
-            rows.bake(tracer.trace(receivers.look(some[i])), nullptr, scratch.terms,
-                      scratch.rows);
+            if (!rows.bake_alone(some[i], scratch.terms)) {
+                return;
+            }
             for (const CoefficientRow& row : scratch.terms) {
                 residuals[i].add(chroma_residual(row));
             }
@@ -82,19 +80,17 @@ double measure_chroma(const RowBaker& rows,
 
 // Rows of some clusters, of the first channel: the same in both colour models but for a tint of
 // the whole row.
-StepChooser look_at_clusters(const RowBaker& rows,
-                             const Receivers& receivers,
-                             const PathTracer& tracer,
-                             const BakeParameters& parameters) {
+StepChooser look_at_clusters(const RowSource& rows, std::uint64_t seed) {
+    const Receivers& receivers = rows.receivers();
     const std::vector<std::uint32_t> clusters =
-        sample_clusters(receivers, kPilotClusters, parameters.seed);
+        sample_clusters(receivers, kPilotClusters, seed);
     std::vector<std::size_t> first_block;
     std::size_t blocks = 0;
     for (const std::uint32_t cluster : clusters) {
         first_block.push_back(blocks);
         blocks += receivers.terms(cluster);
     }
-    StepChooser chooser(signal_basis(parameters), receivers.block_basis(), blocks);
+    StepChooser chooser(rows.signals(), receivers.block_basis(), blocks);
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(
         std::size_t{0}, clusters.size() * transport::kBlockSize, [&](std::size_t i) {
@@ -105,8 +101,9 @@ StepChooser look_at_clusters(const RowBaker& rows,
                 return;
             }
             Scratch& scratch = scratches.local();
-            rows.bake(tracer.trace(receivers.look(*receiver)), nullptr, scratch.terms,
-                      scratch.rows);
+            if (!rows.bake_alone(*receiver, scratch.terms)) {
+                return;
+            }
             for (std::size_t term = 0; term < scratch.terms.size(); ++term) {
                 split_colours(grey_model(), scratch.terms[term], scratch.channels);
                 chooser.set_row(first_block[cluster] + term, slot, scratch.channels.channel[0]);
@@ -117,15 +114,11 @@ StepChooser look_at_clusters(const RowBaker& rows,
 
 }  // namespace
 
-Quantisation plan_quantisation(const RowBaker& rows,
-                               const Receivers& receivers,
-                               const PathTracer& tracer,
-                               const BakeParameters& parameters) {
+Quantisation plan_quantisation(const RowSource& rows, std::uint32_t bits, std::uint64_t seed) {
     Quantisation plan;
-    plan.chroma_residual = measure_chroma(rows, receivers, tracer);
+    plan.chroma_residual = measure_chroma(rows);
     plan.colour = plan.chroma_residual < kColourless ? grey_model() : luma_chroma_model();
-    plan.steps = look_at_clusters(rows, receivers, tracer, parameters)
-                     .steps(parameters.bits, plan.colour);
+    plan.steps = look_at_clusters(rows, seed).steps(bits, plan.colour);
     return plan;
 }
 

@@ -2,9 +2,7 @@
 // each column is to be quantised (step_chooser.h).
 #pragma once
 
-#include "precompute/bake/receivers/receivers.h"
-#include "precompute/bake/rows/path_tracer.h"
-#include "precompute/bake/rows/row_baker.h"
+#include "precompute/bake/blocks/row_source.h"
 #include "protocol/transport/manifest.h"
 
 #include <cstdint>
@@ -18,10 +16,10 @@ struct Quantisation {
     double chroma_residual = 0;  // relative L2 of what one channel would lose
 };
 
-// Deterministic, on any number of threads.
-[[nodiscard]] Quantisation plan_quantisation(const RowBaker& rows,
-                                             const Receivers& receivers,
-                                             const PathTracer& tracer,
-                                             const BakeParameters& parameters);
+// `bits` as in the parameters; `seed` chooses the blocks. Deterministic, on any number of
+// threads.
+[[nodiscard]] Quantisation plan_quantisation(const RowSource& rows,
+                                             std::uint32_t bits,
+                                             std::uint64_t seed);
 
 }  // namespace relume::bake

@@ -1,5 +1,6 @@
 #include "precompute/bake/blocks/sampling_error.h"
 
+#include "precompute/bake/blocks/light_model.h"
 #include "precompute/bake/rows/light_texels.h"
 #include "precompute/bake/rows/path_pool.h"
 #include "precompute/bake/rows/row_baker.h"
@@ -35,8 +36,8 @@ BakeParameters without_bias(BakeParameters parameters, std::uint64_t number) {
 }
 
 // Rows and paths of receivers by parameters of their own.
-struct RowSource {
-    RowSource(const RayCaster& caster, const BakeParameters& of)
+struct LightBaker {
+    LightBaker(const RayCaster& caster, const BakeParameters& of)
         : parameters(of),
           texels(of.face_resolution, of.seed),
           tracer(caster, parameters),
@@ -53,13 +54,6 @@ bool fills(const Receiver& receiver) {
     return receiver.surfaces.size() == 1 && receiver.surfaces.front().share > kWhole;
 }
 
-// Of one draw of a cluster: what its receivers are off by, over their probability in the
-// cluster.
-struct DrawnError {
-    std::array<double, kLightKinds> noise{};
-    std::array<double, kLightKinds> bias{};
-};
-
 class Rebake {
   public:
     Rebake(const RayCaster& caster,
@@ -69,9 +63,9 @@ class Rebake {
         : receivers_(receivers),
           other_(other),
           again_(caster, with_seed(parameters, other_seed(parameters))),
-          unbiased_{RowSource(caster, without_bias(parameters, 0)),
-                    RowSource(caster, without_bias(parameters, 1))},
-          lights_(again_.rows.projection()) {}
+          unbiased_{LightBaker(caster, without_bias(parameters, 0)),
+                    LightBaker(caster, without_bias(parameters, 1))},
+          lights_(light_signals(again_.rows.projection())) {}
 
     [[nodiscard]] DrawnError error(std::uint32_t cluster, const ClusterSample& sample) const {
         TracedReceivers traced(other_, again_.tracer, again_.parameters);
@@ -89,31 +83,18 @@ class Rebake {
                 again_.rows.bake(traced.at(drawn.receiver), &pool, terms, scratch);
                 again = lights_.colours(terms.front());
             }
-            add(weight / 2, drawn.baked, again, drawn.baked, again, error.noise);
+            add_products(weight / 2, drawn.baked, again, drawn.baked, again, error.noise);
             if (fills(receivers_.look(drawn.receiver))) {
-                add(weight, drawn.baked, mean_of_points(drawn.receiver, unbiased_[0]), again,
-                    mean_of_points(drawn.receiver, unbiased_[1]), error.bias);
+                add_products(weight, drawn.baked, mean_of_points(drawn.receiver, unbiased_[0]),
+                             again, mean_of_points(drawn.receiver, unbiased_[1]), error.bias);
             }
         }
         return error;
     }
 
   private:
-    // weight · (a − b)·(c − d), by kind of light.
-    static void add(double weight,
-                    const LitColours& a,
-                    const LitColours& b,
-                    const LitColours& c,
-                    const LitColours& d,
-                    std::array<double, kLightKinds>& sums) {
-        for (std::size_t i = 0; i < kModelLights; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                sums[i / kLightsPerKind] += weight * (a[i][k] - b[i][k]) * (c[i][k] - d[i][k]);
-            }
-        }
-    }
-
-    [[nodiscard]] LitColours mean_of_points(std::size_t receiver, const RowSource& from) const {
+    [[nodiscard]] LitColours mean_of_points(std::size_t receiver,
+                                            const LightBaker& from) const {
         LitColours mean{};
         std::vector<Receiver> points = receivers_.points(receiver, from.parameters.seed);
         std::vector<CoefficientRow> terms;
@@ -124,7 +105,7 @@ class Rebake {
             }
             from.rows.bake(from.tracer.trace(std::move(point)), nullptr, terms, scratch);
             const LitColours one = lights_.colours(terms.front());
-            for (std::size_t i = 0; i < kModelLights; ++i) {
+            for (std::size_t i = 0; i < kModelSignals; ++i) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     mean[i][c] += one[i][c] / static_cast<double>(points.size());
                 }
@@ -135,9 +116,9 @@ class Rebake {
 
     const Receivers& receivers_;
     const Receivers& other_;
-    RowSource again_;
-    std::array<RowSource, 2> unbiased_;
-    ModelLights lights_;
+    LightBaker again_;
+    std::array<LightBaker, 2> unbiased_;
+    ModelSignals lights_;
 };
 
 struct ClusterDraw {
@@ -148,11 +129,11 @@ struct ClusterDraw {
 // Both kinds of light count alike.
 std::vector<ClusterDraw> draw_clusters(std::span<const ClusterSample> clusters,
                                        std::uint64_t seed) {
-    std::array<double, kLightKinds> likely{};
+    std::array<double, kSignalKinds> likely{};
     double receivers = 0;
     for (const ClusterSample& cluster : clusters) {
         receivers += cluster.receiver_count;
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             likely[kind] += cluster.kinds[kind].likely;
         }
     }
@@ -165,9 +146,9 @@ std::vector<ClusterDraw> draw_clusters(std::span<const ClusterSample> clusters,
     for (std::uint32_t i = 0; i < clusters.size(); ++i) {
         const double uniform = clusters[i].receiver_count / receivers;
         double probability = kAnyone * uniform;
-        for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
+        for (std::size_t kind = 0; kind < kSignalKinds; ++kind) {
             probability +=
-                (1 - kAnyone) / static_cast<double>(kLightKinds) *
+                (1 - kAnyone) / static_cast<double>(kSignalKinds) *
                 (likely[kind] > 0 ? clusters[i].kinds[kind].likely / likely[kind] : uniform);
         }
         cumulative += probability;
@@ -206,12 +187,23 @@ std::uint64_t other_seed(const BakeParameters& parameters) {
     return transport::mix_bits(parameters.seed + 3);
 }
 
-transport::SamplingError measure_sampling_error(const RayCaster& caster,
-                                                const Receivers& receivers,
-                                                const Receivers& other,
-                                                const BakeParameters& parameters,
+void add_products(double weight,
+                  const LitColours& a,
+                  const LitColours& b,
+                  const LitColours& c,
+                  const LitColours& d,
+                  std::array<double, kSignalKinds>& sums) {
+    for (std::size_t i = 0; i < kModelSignals; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums[i / kSignalsPerKind] += weight * (a[i][k] - b[i][k]) * (c[i][k] - d[i][k]);
+        }
+    }
+}
+
+transport::SamplingError measure_sampling_error(const DrawnErrorOf& error_of,
+                                                std::uint64_t seed,
                                                 std::span<const ClusterSample> clusters) {
-    const std::vector<ClusterDraw> draws = draw_clusters(clusters, parameters.seed);
+    const std::vector<ClusterDraw> draws = draw_clusters(clusters, seed);
     std::map<std::uint32_t, DrawnError> errors;
     for (const ClusterDraw& draw : draws) {
         errors.try_emplace(draw.cluster);
@@ -220,12 +212,11 @@ transport::SamplingError measure_sampling_error(const RayCaster& caster,
     for (auto& entry : errors) {
         looked_at.push_back(&entry);
     }
-    const Rebake rebake(caster, receivers, other, parameters);
     tbb::parallel_for(std::size_t{0}, looked_at.size(), [&](std::size_t i) {
         auto& [cluster, error] = *looked_at[i];
-        error = rebake.error(cluster, clusters[cluster]);
+        error = error_of(cluster, clusters[cluster]);
     });
-    const auto relative = [&](LightKind kind) {
+    const auto relative = [&](SignalKind kind) {
         double energy = 0;
         for (const ClusterSample& cluster : clusters) {
             energy += cluster.kinds[kind].energy;
@@ -245,6 +236,19 @@ transport::SamplingError measure_sampling_error(const RayCaster& caster,
         return std::sqrt((noise.mean + std::max(0.0, bias.mean) + noise.deviation) / energy);
     };
     return {.natural = relative(kNatural), .sun = relative(kSun)};
+}
+
+transport::SamplingError measure_sampling_error(const RayCaster& caster,
+                                                const Receivers& receivers,
+                                                const Receivers& other,
+                                                const BakeParameters& parameters,
+                                                std::span<const ClusterSample> clusters) {
+    const Rebake rebake(caster, receivers, other, parameters);
+    return measure_sampling_error(
+        [&](std::uint32_t cluster, const ClusterSample& sample) {
+            return rebake.error(cluster, sample);
+        },
+        parameters.seed, clusters);
 }
 
 }  // namespace relume::bake

@@ -8,6 +8,9 @@
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <span>
 
 namespace relume::bake {
@@ -26,9 +29,32 @@ namespace relume::bake {
 // rather too large than too small, and is zero only where no receiver that was drawn differs
 // between two bakes.
 //
-// `other` are the receivers looked at with another seed; `clusters` hold a sample for every
-// cluster. 48 draws of clusters are looked at, with six draws of receivers in each.
-// Deterministic, on any number of threads.
+// `clusters` hold a sample for every cluster. 48 draws of clusters, chosen by `seed`, are
+// looked at, with six draws of receivers in each. Deterministic, on any number of threads.
+
+// Of one draw of a cluster: what its receivers are off by, over their probability in the
+// cluster: the two sums above, by kind of signal.
+struct DrawnError {
+    std::array<double, kSignalKinds> noise{};
+    std::array<double, kSignalKinds> bias{};
+};
+
+// weight · (a − b)·(c − d), added by kind of signal.
+void add_products(double weight,
+                  const LitColours& a,
+                  const LitColours& b,
+                  const LitColours& c,
+                  const LitColours& d,
+                  std::array<double, kSignalKinds>& sums);
+
+// Bakes receivers that were drawn once more.
+using DrawnErrorOf =
+    std::function<DrawnError(std::uint32_t cluster, const ClusterSample& sample)>;
+
+[[nodiscard]] transport::SamplingError measure_sampling_error(
+    const DrawnErrorOf& error_of, std::uint64_t seed, std::span<const ClusterSample> clusters);
+
+// Of rows of light. `other` are the receivers looked at with another seed.
 [[nodiscard]] transport::SamplingError measure_sampling_error(
     const RayCaster& caster,
     const Receivers& receivers,

@@ -19,7 +19,6 @@ constexpr std::size_t kTintValues = std::size_t{transport::kColours} * transport
 struct ShardBaker::Scratch {
     std::vector<CoefficientRow> terms;
     ChannelRow channels;
-    RowBaker::Scratch rows;
 };
 
 struct ShardBaker::Block {
@@ -30,21 +29,18 @@ struct ShardBaker::Block {
     StoredRows stored;
 };
 
-ShardBaker::ShardBaker(const RowBaker& rows,
-                       const TracedReceivers& traced,
+ShardBaker::ShardBaker(const RowSource& rows,
                        const Quantisation& quantisation,
                        std::uint64_t seed)
     : rows_(rows),
-      traced_(traced),
-      pool_(traced),
-      patch_(traced.receivers().patch()),
+      patch_(rows.receivers().patch()),
       quantisation_(quantisation),
       seed_(seed),
-      lights_(rows.projection()),
-      meter_(lights_, quantisation) {}
+      signals_(rows.signals()),
+      meter_(signals_, quantisation) {}
 
 BakedShard ShardBaker::bake(const ShardClusters& clusters, const Tick& tick) const {
-    const Receivers& receivers = traced_.receivers();
+    const Receivers& receivers = rows_.receivers();
     BakedShard shard;
     shard.blocks.assign(clusters.block_count, transport::EncodedBlock(0));
     // Receivers without a surface stay black, whatever the block's coefficients say of them.
@@ -83,7 +79,7 @@ void ShardBaker::bake_cluster(std::uint32_t number,
                               std::uint64_t& rays,
                               const Tick& tick) const {
     static thread_local Scratch scratch;
-    const Receivers& receivers = traced_.receivers();
+    const Receivers& receivers = rows_.receivers();
     std::vector<Block> blocks;
     for (std::size_t term = 0; term < rows.size(); ++term) {
         rows[term].clear();
@@ -96,7 +92,7 @@ void ShardBaker::bake_cluster(std::uint32_t number,
     std::vector<BakedColours> lit;
     constexpr std::uint32_t kSlotsPerTick = 16;
     for (std::uint32_t first = 0; first < transport::kBlockSize; first += kSlotsPerTick) {
-        const std::uint64_t before = scratch.rows.direct.visibility.rays;
+        std::uint64_t cast = 0;
         std::uint64_t baked = 0;
         for (std::uint32_t slot = first; slot < first + kSlotsPerTick; ++slot) {
             const auto receiver = receivers.receiver_at(number, slot);
@@ -104,18 +100,15 @@ void ShardBaker::bake_cluster(std::uint32_t number,
                 continue;
             }
             ++baked;
-            const TracedReceiver& traced = traced_.at(*receiver);
-            if (traced.receiver.surfaces.empty()) {
+            if (!rows_.bake(*receiver, scratch.terms, cast)) {
                 continue;
             }
-            rows_.bake(traced, &pool_, scratch.terms, scratch.rows);
             lit.push_back(
-                {.receiver = *receiver, .colours = lights_.colours(scratch.terms.front())});
+                {.receiver = *receiver, .colours = signals_.colours(scratch.terms.front())});
             for (std::size_t term = 0; term < blocks.size(); ++term) {
                 set_row(scratch.terms[term], slot, blocks[term], scratch);
             }
         }
-        const std::uint64_t cast = scratch.rows.direct.visibility.rays - before;
         rays += cast;
         if (!tick(baked, cast)) {
             throw BakeInterrupted("stopped before all shards were finished");
@@ -145,7 +138,7 @@ void ShardBaker::set_row(const CoefficientRow& row,
     }
     if (std::find(patch_.slots.begin(), patch_.slots.end(), slot) != patch_.slots.end()) {
         block.stored.slots.push_back(slot);
-        block.measured.emplace_back().exact = lights_.colours(row);
+        block.measured.emplace_back().exact = signals_.colours(row);
     }
 }
 

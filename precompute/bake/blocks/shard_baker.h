@@ -4,9 +4,8 @@
 #include "precompute/bake/blocks/block_rows.h"
 #include "precompute/bake/blocks/error_meter.h"
 #include "precompute/bake/blocks/pilot.h"
+#include "precompute/bake/blocks/row_source.h"
 #include "precompute/bake/blocks/shard_notes.h"
-#include "precompute/bake/rows/row_baker.h"
-#include "precompute/bake/rows/traced_receivers.h"
 #include "protocol/transport/shard_writer.h"
 
 #include <cstdint>
@@ -23,15 +22,13 @@ struct BakedShard {
 
 class ShardBaker {
   public:
-    ShardBaker(const RowBaker& rows,
-               const TracedReceivers& traced,
-               const Quantisation& quantisation,
-               std::uint64_t seed);
+    // Keeps references to both. `seed`: of the receivers that are sampled.
+    ShardBaker(const RowSource& rows, const Quantisation& quantisation, std::uint64_t seed);
 
     // Called with receivers and rays done, by any thread; false stops the bake.
     using Tick = std::function<bool(std::uint64_t receivers, std::uint64_t rays)>;
 
-    // These clusters are in reach of the traced receivers. Throws BakeInterrupted.
+    // The rows are ready for these clusters. Throws BakeInterrupted.
     [[nodiscard]] BakedShard bake(const ShardClusters& clusters, const Tick& tick) const;
 
   private:
@@ -52,13 +49,11 @@ class ShardBaker {
                       std::uint64_t& rays,
                       const Tick& tick) const;
 
-    const RowBaker& rows_;
-    const TracedReceivers& traced_;
-    PathPool pool_;
+    const RowSource& rows_;
     ClusterPatch patch_;
     const Quantisation& quantisation_;
-    std::uint64_t seed_;  // of the receivers that are sampled
-    ModelLights lights_;
+    std::uint64_t seed_;
+    ModelSignals signals_;
     ErrorMeter meter_;
 };
 

@@ -1,6 +1,5 @@
 #include "precompute/bake/blocks/step_chooser.h"
 
-#include "precompute/bake/blocks/light_model.h"
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/quantise.h"
 
@@ -41,14 +40,13 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(const basis::CubemapBasis& basis,
+StepChooser::StepChooser(const SignalModel& signals,
                          transport::BlockBasis block_basis,
                          std::size_t blocks)
-    : basis_(basis), block_basis_(block_basis), blocks_(blocks) {
-    const std::size_t count = basis.coefficient_count();
-    std::vector<std::vector<std::uint32_t>> of_band(basis.band_count());
-    for (std::uint32_t j = 0; j < count; ++j) {
-        of_band[basis.band_from_coefficient(j)].push_back(j);
+    : signals_(signals), block_basis_(block_basis), blocks_(blocks) {
+    std::vector<std::vector<std::uint32_t>> of_band(signals.natural_weight.size());
+    for (std::uint32_t j = 0; j < signals.band.size(); ++j) {
+        of_band[signals.band[j]].push_back(j);
     }
     for (std::uint32_t band = 0; band < of_band.size(); ++band) {
         const std::size_t all = of_band[band].size();
@@ -81,8 +79,7 @@ StepChooser::SquaredErrors StepChooser::sum_over_cells(Error error_of) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         const Column& column = columns_[i];
         const double error = errors[i] * column.weight;
-        const double octave = basis_.octave_from_band(column.band);
-        total.natural += std::exp2(-2.0 * double{kNaturalFalloff} * octave) * error;
+        total.natural += signals_.natural_weight[column.band] * error;
         // A lone texel's coefficients have the same energy in every band.
         total.lone_light += error;
     }
@@ -143,27 +140,24 @@ std::vector<float> StepChooser::steps(std::uint32_t bits,
     for (const Cell& cell : cells_) {
         high = std::max(high, largest(cell));
     }
-    const auto growth = [this](std::uint32_t band) {
-        return std::exp2(kStepGrowth * basis_.octave_from_band(band));
-    };
+    const std::vector<float>& growth = signals_.step_growth;
     const float scale = largest_within(high, [&](float candidate) {
         return errors([&](const Column& column) {
-                   return candidate * growth(column.band);
+                   return candidate * growth[column.band];
                }).natural < target.natural;
     });
     const float coarsest = largest_within(high, [&](float step) {
         return errors([&](const Column&) { return step; }).lone_light < target.lone_light;
     });
     std::vector<float> steps;
-    for (std::size_t j = 0; j < basis_.coefficient_count(); ++j) {
-        const std::uint32_t band = basis_.band_from_coefficient(j);
+    for (const std::uint32_t band : signals_.band) {
         for (std::uint32_t k = 0; k < colour.channels; ++k) {
             // So that a channel's error weighs alike in the colours.
             double norm = 0;
             for (const auto& row : colour.matrix) {
                 norm += double{row[k]} * row[k];
             }
-            steps.push_back(std::min(scale * growth(band), coarsest) *
+            steps.push_back(std::min(scale * growth[band], coarsest) *
                             static_cast<float>(std::sqrt(3 / norm)));
         }
     }

@@ -1,14 +1,16 @@
 // How finely each column is to be quantised, from the rows of a few blocks.
 //
-// Steps grow with the band, step(band) = c·2^(β·octave), as the coefficients of natural light
-// fall with it: reverse water-filling spreads the expected error of the image evenly. c is set
-// so that under natural light the expected error equals that of [Ng03], which spends `bits`
-// bits on the range of each column, receiver by receiver. Natural light hardly weighs the fine
-// bands, and a bare sun lives in them: a largest step keeps the error of a lone lit texel at
-// [Ng03]'s too.
+// Steps grow with the band, step(band) = c·growth(band), as the coefficients of natural signals
+// fall with it; of light growth is 2^(β·octave). Reverse water-filling spreads the expected
+// error of the image evenly. c is set so that under natural signals the expected error equals
+// that of [Ng03], which spends `bits` bits on the range of each column, receiver by receiver.
+// Natural light hardly weighs the fine bands, and a bare sun lives in them: a largest step
+// keeps the error of a signal that has the same energy in every column, as a lone lit texel on
+// average, at [Ng03]'s too.
 #pragma once
 
-#include "protocol/basis/cubemap_basis.h"
+#include "precompute/bake/blocks/signal_model.h"
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/format.h"
 #include "protocol/transport/manifest.h"
 
@@ -19,12 +21,10 @@
 
 namespace relume::bake {
 
-inline constexpr float kStepGrowth = 0.7F;  // β
-
 class StepChooser {
   public:
-    // Keeps some columns of every band.
-    StepChooser(const basis::CubemapBasis& basis,
+    // Keeps some columns of every band. `signals` outlives it.
+    StepChooser(const SignalModel& signals,
                 transport::BlockBasis block_basis,
                 std::size_t blocks);
 
@@ -55,7 +55,7 @@ class StepChooser {
     template <typename Step>
     [[nodiscard]] SquaredErrors errors(Step step) const;
 
-    basis::CubemapBasis basis_;
+    const SignalModel& signals_;
     transport::BlockBasis block_basis_;
     std::size_t blocks_;
     std::vector<Column> columns_;

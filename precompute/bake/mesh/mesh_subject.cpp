@@ -1,6 +1,8 @@
 #include "precompute/bake/mesh/mesh_subject.h"
 
 #include "precompute/bake/base/error.h"
+#include "precompute/bake/blocks/light_rows.h"
+#include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/fingerprint.h"
 #include "precompute/bake/probes/light_probe.h"
 #include "precompute/bake/receivers/vertex/refinement.h"
@@ -70,7 +72,8 @@ MeshSubject::MeshSubject(const RayCaster& caster,
                          const BakeParameters& parameters,
                          std::span<const MeasuredBrdf> measured,
                          const std::function<bool()>& should_stop)
-    : scene_(caster.scene()),
+    : caster_(caster),
+      scene_(caster.scene()),
       parameters_(parameters),
       measured_hash_(hash_of(measured)),
       camera_(scene_.camera, parameters.width, parameters.height),
@@ -78,8 +81,19 @@ MeshSubject::MeshSubject(const RayCaster& caster,
       surface_(refined(caster, materials_, parameters, should_stop)),
       vertices_(scene_, surface_, brdfs_of(materials_)) {}
 
+std::unique_ptr<RowSource> MeshSubject::rows() const {
+    return std::make_unique<LightRows>(caster_, vertices_, parameters_);
+}
+
+// Another seed finds the same vertices.
+transport::SamplingError MeshSubject::sampling_error(
+    std::span<const ClusterSample> samples) const {
+    return measure_sampling_error(caster_, vertices_, vertices_, parameters_, samples);
+}
+
 void MeshSubject::describe(transport::Manifest& manifest) const {
     manifest.kind = transport::Kind::mesh;
+    manifest.signal_basis = signal_basis(parameters_);
     manifest.block_basis = vertices_.block_basis();
     std::vector<transport::Cluster> clusters;
     for (const VertexCluster& cluster : surface_.clusters) {

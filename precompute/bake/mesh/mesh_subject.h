@@ -24,10 +24,9 @@ class MeshSubject final : public BakeSubject {
 
     [[nodiscard]] const Receivers& receivers() const override { return vertices_; }
     // A vertex lies where it lies.
-    [[nodiscard]] std::unique_ptr<const Receivers> receivers_looked_at(
-        const BakeParameters& /*parameters*/) const override {
-        return nullptr;
-    }
+    [[nodiscard]] std::unique_ptr<RowSource> rows() const override;
+    [[nodiscard]] transport::SamplingError sampling_error(
+        std::span<const ClusterSample> samples) const override;
     // A surface that can be refined has vertices.
     void check() const override {}
     void describe(transport::Manifest& manifest) const override;
@@ -37,6 +36,7 @@ class MeshSubject final : public BakeSubject {
     void write_files(const std::filesystem::path& directory) const override;
 
   private:
+    const RayCaster& caster_;
     const scene::Scene& scene_;
     BakeParameters parameters_;
     std::uint64_t measured_hash_ = 0;

@@ -1,6 +1,6 @@
 #include "tests/lab/cpca/coded_cluster.h"
 
-#include "precompute/bake/blocks/step_chooser.h"
+#include "precompute/bake/blocks/light_model.h"
 #include "protocol/basis/cpu_clones.h"
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/quantise.h"

@@ -1,6 +1,6 @@
 #include "tests/lab/cpca/cpca_experiment.h"
 
-#include "precompute/bake/blocks/model_lights.h"
+#include "precompute/bake/blocks/model_signals.h"
 #include "protocol/basis/cubemap_projection.h"
 #include "tests/lab/cpca/reassignment.h"
 #include "tests/lab/cpca/row_sketch.h"
@@ -20,10 +20,10 @@ namespace {
 RowVectors all_lights(const basis::CubemapBasis& basis, const CpcaOptions& options) {
     const auto projection = basis::CubemapProjection::onto(basis);
     std::vector<std::vector<float>> lights;
-    for (std::uint64_t i = 0; i < bake::kLightsPerKind; ++i) {
+    for (std::uint64_t i = 0; i < bake::kSignalsPerKind; ++i) {
         lights.push_back(bake::natural_light(basis, i));
     }
-    for (std::uint64_t i = 0; i < bake::kLightsPerKind; ++i) {
+    for (std::uint64_t i = 0; i < bake::kSignalsPerKind; ++i) {
         lights.push_back(bake::sun_light(*projection, i));
     }
     light::LightCubemap radiance(basis.face_resolution());
@@ -171,8 +171,8 @@ class Experiment {
     [[nodiscard]] CodedFigures figures_of(const std::string& name,
                                           const LightErrors& asked,
                                           const StoredRows& stored) const {
-        constexpr std::size_t kNaturalEnd = bake::kLightsPerKind;
-        constexpr std::size_t kSunEnd = bake::kModelLights;
+        constexpr std::size_t kNaturalEnd = bake::kSignalsPerKind;
+        constexpr std::size_t kSunEnd = bake::kModelSignals;
         const auto lights = static_cast<std::size_t>(lights_.cols());
         const auto seams = [&](std::size_t first, std::size_t last) {
             return measure_seams(rows_, cluster_of_, exact_, stored.answers, lights, first,
@@ -206,7 +206,7 @@ class Experiment {
                                .answers = stored.component_answers[c]});
         }
         return measure_second_step(dragged, static_cast<std::size_t>(lights_.cols()),
-                                   bake::kModelLights, options_.sequence.rests_from(),
+                                   bake::kModelSignals, options_.sequence.rests_from(),
                                    options_.share);
     }
 

@@ -1,6 +1,7 @@
 #include "tests/lab/cpca/vertex_rows.h"
 
 #include "precompute/bake/blocks/colour_split.h"
+#include "precompute/bake/blocks/light_rows.h"
 #include "precompute/bake/blocks/pilot.h"
 #include "precompute/bake/blocks/shard_clusters.h"
 #include "precompute/bake/mesh/mesh_subject.h"
@@ -117,8 +118,8 @@ VertexRows bake_vertex_rows(const scene::Scene& scene,
     const bake::LightTexels texels(parameters.face_resolution, parameters.seed);
     const bake::PathTracer tracer(caster, parameters);
     const bake::RowBaker baker(caster, texels, parameters);
-    const bake::Quantisation plan =
-        bake::plan_quantisation(baker, receivers, tracer, parameters);
+    const bake::Quantisation plan = bake::plan_quantisation(
+        bake::LightRows(caster, receivers, parameters), parameters.bits, parameters.seed);
     const std::uint32_t channels = plan.colour.channels;
     const std::vector<float> scales = channel_scales(plan.colour);
     const std::vector<bake::ShardClusters> shards = some_shards(receivers, most_runs);

@@ -3,6 +3,7 @@
 #include "precompute/bake/receivers/receivers.h"
 
 #include "precompute/bake/blocks/block_encoder.h"
+#include "precompute/bake/blocks/light_rows.h"
 #include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/rows/path_pool.h"
@@ -270,13 +271,15 @@ TEST_F(ReceiversTest, EachIsTracedOnceAndThoseThatLaterBlocksNeedAreKept) {
 }
 
 TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
+    LightRows light_rows(caster_, receivers_, parameters_);
     const Quantisation quantisation =
-        plan_quantisation(rows_, receivers_, tracer_, parameters_);
+        plan_quantisation(light_rows, parameters_.bits, parameters_.seed);
+    light_rows.move_to(0, 2);
     TracedReceivers traced(receivers_, tracer_, parameters_);
     traced.move_to(0, 2);
     std::atomic<std::uint64_t> ticked = 0;
     const BakedShard shard =
-        ShardBaker(rows_, traced, quantisation, 1)
+        ShardBaker(light_rows, quantisation, 1)
             .bake(kBothClusters, [&](std::uint64_t receivers, std::uint64_t) {
                 ticked += receivers;
                 return true;
@@ -328,16 +331,12 @@ TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
 TEST_F(ReceiversTest, TheStatedErrorOfSamplingFallsWithMorePaths) {
     parameters_.pool_radius = 0;
     const auto stated = [&] {
-        const PathTracer tracer(caster_, parameters_);
-        const RowBaker rows(caster_, texels_, parameters_);
+        LightRows rows(caster_, receivers_, parameters_);
         const Quantisation quantisation =
-            plan_quantisation(rows, receivers_, tracer, parameters_);
-        TracedReceivers traced(receivers_, tracer, parameters_);
-        traced.move_to(0, 2);
+            plan_quantisation(rows, parameters_.bits, parameters_.seed);
+        rows.move_to(0, 2);
         const BakedShard shard =
-            ShardBaker(rows, traced, quantisation, 1).bake(kBothClusters, [](auto...) {
-                return true;
-            });
+            ShardBaker(rows, quantisation, 1).bake(kBothClusters, [](auto...) { return true; });
         // Points are the same with another seed.
         return measure_sampling_error(caster_, receivers_, receivers_, parameters_,
                                       shard.notes.samples)

@@ -3,6 +3,7 @@
 
 #include "precompute/bake/bake.h"
 #include "precompute/bake/blocks/light_model.h"
+#include "precompute/bake/blocks/light_rows.h"
 #include "precompute/bake/blocks/shard_baker.h"
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/bake/relight.h"
@@ -40,13 +41,10 @@ transport::SamplingError stated(const scene::Scene& scene, const BakeParameters&
     BakeParameters with_other_seed = parameters;
     with_other_seed.seed = other_seed(parameters);
     const PixelReceivers other(caster, with_other_seed);
-    const LightTexels texels(parameters.face_resolution, parameters.seed);
-    const PathTracer tracer(caster, parameters);
-    const RowBaker rows(caster, texels, parameters);
-    const Quantisation quantisation = plan_quantisation(rows, receivers, tracer, parameters);
-    TracedReceivers traced(receivers, tracer, parameters);
-    traced.move_to(0, receivers.cluster_count());
-    const BakedShard shard = ShardBaker(rows, traced, quantisation, parameters.seed)
+    LightRows rows(caster, receivers, parameters);
+    const Quantisation quantisation = plan_quantisation(rows, parameters.bits, parameters.seed);
+    rows.move_to(0, receivers.cluster_count());
+    const BakedShard shard = ShardBaker(rows, quantisation, parameters.seed)
                                  .bake({.cluster_count = receivers.cluster_count(),
                                         .block_count = receivers.cluster_count()},
                                        [](auto...) { return true; });
