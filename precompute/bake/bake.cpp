@@ -2,6 +2,7 @@
 
 #include "precompute/bake/base/error.h"
 #include "precompute/bake/blocks/shard_baker.h"
+#include "precompute/bake/curve_subject.h"
 #include "precompute/bake/image_subject.h"
 #include "precompute/bake/mesh/mesh_subject.h"
 #include "precompute/bake/peak_memory.h"
@@ -102,8 +103,13 @@ transport::ShardPlan plan_of(std::span<const ShardClusters> shards) {
 
 std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
                                           const BakeParameters& parameters,
+                                          const CurveEdits* edits,
                                           std::span<const MeasuredBrdf> measured,
                                           const BakeHooks& hooks) {
+    if (edits != nullptr) {
+        return std::make_unique<CurveSubject>(caster, parameters, edits->light,
+                                              edits->materials);
+    }
     if (parameters.receivers == ReceiverKind::vertices) {
         return std::make_unique<MeshSubject>(caster, parameters, measured, hooks.should_stop);
     }
@@ -114,27 +120,28 @@ class Bake {
   public:
     Bake(const scene::Scene& scene,
          const BakeParameters& parameters,
+         const CurveEdits* edits,
          const std::filesystem::path& directory,
          std::span<const MeasuredBrdf> measured,
          const BakeHooks& hooks)
         : parameters_(parameters),
           directory_(directory),
           caster_(scene),
-          subject_(make_subject(caster_, parameters, measured, hooks)),
+          subject_(make_subject(caster_, parameters, edits, measured, hooks)),
           progress_(hooks, subject_->receivers().receiver_count()) {
         TracedReceivers::check_memory(subject_->receivers(), parameters);
         subject_->check();
         rows_ = subject_->rows();
         manifest_.generator = generator();
-        subject_->describe(manifest_);
-        manifest_.stating_rows = kStatingRows;
-        manifest_.choosing_rows = kChoosingRows;
         manifest_.bake = json_from_parameters(parameters);
         manifest_.bake["scene"] = scene.name;
         manifest_.bake["triangles"] = scene.triangle_count();
         for (const MeasuredBrdf& one : measured) {
             manifest_.bake["measured"][one.material] = one.file.filename().string();
         }
+        subject_->describe(manifest_);
+        manifest_.stating_rows = kStatingRows;
+        manifest_.choosing_rows = kChoosingRows;
     }
 
     BakeSummary run() {
@@ -246,6 +253,23 @@ class Bake {
     BakeSummary summary_;
 };
 
+BakeSummary run_bake(const scene::Scene& scene,
+                     const BakeParameters& parameters,
+                     const CurveEdits* edits,
+                     const std::filesystem::path& directory,
+                     std::span<const MeasuredBrdf> measured,
+                     const BakeHooks& hooks) {
+    std::optional<tbb::global_control> limit;
+    if (parameters.threads > 0) {
+        limit.emplace(tbb::global_control::max_allowed_parallelism, parameters.threads);
+    }
+    if (measured.empty()) {
+        return Bake(scene, parameters, edits, directory, measured, hooks).run();
+    }
+    const scene::Scene seen_by_paths = scene_with_albedos(scene, measured);
+    return Bake(seen_by_paths, parameters, edits, directory, measured, hooks).run();
+}
+
 }  // namespace
 
 BakeSummary bake(const scene::Scene& scene,
@@ -255,19 +279,31 @@ BakeSummary bake(const scene::Scene& scene,
                  std::span<const MeasuredBrdf> measured) {
     check_parameters(parameters);
     if (!measured.empty() && parameters.receivers != ReceiverKind::vertices) {
-        throw program::UsageError(fmt::format(
-            "'{}' is to reflect as was measured: expected receivers that are vertices",
-            measured.front().material));
+        throw program::UsageError(
+            fmt::format("'{}' is to reflect as was measured: expected receivers that are "
+                        "vertices, or --edit "
+                        "beside it",
+                        measured.front().material));
     }
-    std::optional<tbb::global_control> limit;
-    if (parameters.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, parameters.threads);
+    return run_bake(scene, parameters, nullptr, directory, measured, hooks);
+}
+
+BakeSummary bake_curves(const scene::Scene& scene,
+                        const BakeParameters& parameters,
+                        const CurveEdits& edits,
+                        const std::filesystem::path& directory,
+                        const BakeHooks& hooks,
+                        std::span<const MeasuredBrdf> measured) {
+    check_parameters(parameters);
+    if (parameters.receivers != ReceiverKind::pixels ||
+        parameters.basis != basis::CubemapBasis::Kind::haar ||
+        parameters.face_resolution != edits.light.cubemap.face_resolution) {
+        throw program::UsageError(
+            "curves are baked for the pixels of an image under the texels of a cubemap, "
+            "expected "
+            "neither --receivers vertices nor --basis sh beside --edit");
     }
-    if (measured.empty()) {
-        return Bake(scene, parameters, directory, measured, hooks).run();
-    }
-    const scene::Scene seen_by_paths = scene_with_albedos(scene, measured);
-    return Bake(seen_by_paths, parameters, directory, measured, hooks).run();
+    return run_bake(scene, parameters, &edits, directory, measured, hooks);
 }
 
 }  // namespace relume::bake

@@ -3,12 +3,15 @@
 
 #include "precompute/bake/base/measured_brdf.h"
 #include "precompute/bake/base/parameters.h"
+#include "precompute/bake/curves/edited_material.h"
+#include "precompute/bake/curves/frozen_light.h"
 #include "precompute/scene/scene.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace relume::bake {
 
@@ -46,6 +49,12 @@ struct BakeSummary {
     std::uint64_t peak_memory_bytes = 0;
 };
 
+// The curves that an image is to answer to, and the light that is frozen in it.
+struct CurveEdits {
+    FrozenLight light;
+    std::vector<EditedMaterial> materials;  // 1 … 16
+};
+
 // Bakes an image of the scene seen by its own camera into `directory`, which is made or
 // continued: shards of a bake of the same inputs that was interrupted are kept. The same inputs
 // give the same bytes on any number of threads. Memory stays bounded by a shard's rows of paths
@@ -58,5 +67,15 @@ BakeSummary bake(const scene::Scene& scene,
                  const std::filesystem::path& directory,
                  const BakeHooks& hooks = {},
                  std::span<const MeasuredBrdf> measured = {});
+
+// The same of an image of pixels that answers to curves. The light is of the resolution of the
+// parameters, and their basis is Haar's; throws program::UsageError where they ask for
+// something else. `measured` are of edited materials.
+BakeSummary bake_curves(const scene::Scene& scene,
+                        const BakeParameters& parameters,
+                        const CurveEdits& edits,
+                        const std::filesystem::path& directory,
+                        const BakeHooks& hooks = {},
+                        std::span<const MeasuredBrdf> measured = {});
 
 }  // namespace relume::bake

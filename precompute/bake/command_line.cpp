@@ -10,6 +10,33 @@
 namespace relume::bake {
 namespace {
 
+void add_curve_options(CLI::App& app, Arguments& arguments) {
+    app.add_option(
+           "--edit", arguments.curves.edits,
+           "Bake curves in place of light: MATERIAL or MATERIAL.CURVE, a curve of its BRDF "
+           "that people edit; several with commas")
+        ->delimiter(',');
+    app.add_option(
+        "--model", arguments.curves.models,
+        "BRDF of an edited material: MATERIAL=ggx, cook-torrance, ashikhmin-shirley or "
+        "phong, with :PARAMETER=VALUE,…, a colour as r/g/b [the scene's]");
+    app.add_option(
+        "--measured", arguments.curves.measured,
+        "Measured BRDF of an edited material, factored into curves: MATERIAL=FILE.binary "
+        "as of the MERL database");
+    app.add_option("--environment", arguments.frozen_light.environment,
+                   "Light of a bake of curves: a map, HDR or EXR, or one made by formula, as "
+                   "sky-noon");
+    app.add_option(
+        "--centre", arguments.frozen_light.centre,
+        "Where the centre of the map looks: -z, +z, +x, -x, +y or -y; +x as in Blender "
+        "and three.js [-z]");
+    app.add_option("--rotate", arguments.rotate,
+                   "Turn the environment: YAW,PITCH,ROLL in degrees [0,0,0]");
+    app.add_option("--gain", arguments.frozen_light.gain, "Scale the environment")
+        ->capture_default_str();
+}
+
 void add_bake_options(CLI::App& app, Arguments& arguments) {
     using Kind = basis::CubemapBasis::Kind;
     const std::map<std::string, Kind> kinds{{"haar", Kind::haar},
@@ -41,9 +68,8 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--up", arguments.up, "What is up for it: X,Y,Z");
     app.add_option("--fov", arguments.fov_degrees, "Vertical field of view in degrees [40]");
     app.add_option("--size", arguments.size, "Image size in pixels: WxH [512x512]");
-    app.add_option("--light-resolution", p.face_resolution,
-                   "Texels along a face of the lighting cubemap, 4 to 256")
-        ->capture_default_str();
+    app.add_option("--light-resolution", arguments.light_resolution,
+                   "Texels along a face of the lighting cubemap, 4 to 256 [64; of curves 128]");
     app.add_option("--basis", p.basis,
                    "What the columns of the transport stand for: haar wavelets or sh, "
                    "spherical harmonics [haar]")
@@ -89,6 +115,7 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                    "the MERL database; may be given again")
         ->take_all()
         ->allow_extra_args(false);
+    add_curve_options(app, arguments);
     app.add_option("--threads", p.threads, "Threads; 0: one per core")->capture_default_str();
     app.add_option("--seed", p.seed, "Chooses all random numbers")->capture_default_str();
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "precompute/bake/base/parameters.h"
+#include "precompute/bake/curves/edited_material.h"
+#include "precompute/bake/curves/frozen_light.h"
 
 #include <CLI/App.hpp>
 
@@ -28,6 +30,11 @@ struct Arguments {
     std::optional<std::uint32_t> order;  // of spherical harmonics
     std::vector<std::string> measured;   // MATERIAL=FILE
     BakeParameters parameters;
+    std::optional<std::uint32_t> light_resolution;
+    // bake, of curves
+    CurveRequest curves;
+    LightRequest frozen_light;
+    std::string rotate;
     // info, verify, relight
     std::string directory;
     bool json = false;

@@ -30,6 +30,8 @@
 namespace relume::bake {
 namespace {
 
+constexpr std::uint32_t kCurveLightResolution = 128;
+
 std::atomic<bool> stop_requested = false;
 
 void request_stop(int /*signal*/) {
@@ -147,6 +149,45 @@ void print_notes(const scene::ImportReport& report) {
     }
 }
 
+// None where the bake is of light.
+std::optional<CurveEdits> curve_edits(const Arguments& arguments,
+                                      const scene::Scene& scene,
+                                      const BakeParameters& parameters,
+                                      std::span<const MeasuredBrdf> measured) {
+    if (arguments.curves.edits.empty()) {
+        return std::nullopt;
+    }
+    std::vector<EditedMaterial> materials = edited_materials(scene, arguments.curves, measured);
+    LightRequest light = arguments.frozen_light;
+    if (!arguments.rotate.empty()) {
+        const auto degrees = parse_list<double>("--rotate", arguments.rotate, ',', 3,
+                                                "three numbers YAW,PITCH,ROLL in degrees");
+        light.rotation_degrees = {degrees[0], degrees[1], degrees[2]};
+    }
+    return CurveEdits{.light = frozen_light(light, parameters.face_resolution),
+                      .materials = std::move(materials)};
+}
+
+// What is said of curves without --edit, and of light in its place, has no meaning.
+void check_curve_options(const Arguments& arguments) {
+    if (arguments.curves.edits.empty()) {
+        const bool says_curves = !arguments.curves.models.empty() ||
+                                 !arguments.frozen_light.environment.empty() ||
+                                 !arguments.frozen_light.centre.empty() ||
+                                 !arguments.rotate.empty() || arguments.frozen_light.gain != 1;
+        if (says_curves) {
+            throw program::UsageError(
+                "--model, --environment, --centre, --rotate and --gain are for "
+                "bakes "
+                "of curves, expected --edit MATERIAL beside them");
+        }
+    } else if (arguments.frozen_light.environment.empty()) {
+        throw program::UsageError(
+            "--edit bakes curves under a light that stays, expected --environment FILE, or a "
+            "name such as sky-noon, beside it");
+    }
+}
+
 int run_bake(const Arguments& arguments) {
     if (arguments.scene.empty() == arguments.builtin.empty()) {
         throw program::UsageError(
@@ -165,6 +206,11 @@ int run_bake(const Arguments& arguments) {
         parameters.width = size[0];
         parameters.height = size[1];
     }
+    if (arguments.light_resolution) {
+        parameters.face_resolution = *arguments.light_resolution;
+    } else if (!arguments.curves.edits.empty()) {
+        parameters.face_resolution = kCurveLightResolution;
+    }
     if (arguments.order) {
         if (parameters.basis != basis::CubemapBasis::Kind::spherical_harmonics) {
             throw program::UsageError(
@@ -178,6 +224,7 @@ int run_bake(const Arguments& arguments) {
     for (const std::string& words : arguments.measured) {
         measured.push_back(read_measured_brdf(words));
     }
+    check_curve_options(arguments);
     if (!arguments.preview.empty()) {
         const scene::Scene scene = scene_of(arguments, parameters);
         print_notes(scene.report);
@@ -191,6 +238,7 @@ int run_bake(const Arguments& arguments) {
     }
     const scene::Scene scene = scene_of(arguments, parameters);
     print_notes(scene.report);
+    const std::optional<CurveEdits> edits = curve_edits(arguments, scene, parameters, measured);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
     BakeSummary summary;
@@ -199,7 +247,8 @@ int run_bake(const Arguments& arguments) {
         const BakeHooks hooks{
             .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
             .should_stop = [] { return stop_requested.load(); }};
-        summary = bake(scene, parameters, output.path(), hooks, measured);
+        summary = edits ? bake_curves(scene, parameters, *edits, output.path(), hooks, measured)
+                        : bake(scene, parameters, output.path(), hooks, measured);
     }
     write_report(output.path(), report_from(scene, parameters, summary));
     const nlohmann::json description = describe(output.path());

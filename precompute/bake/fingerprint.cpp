@@ -96,7 +96,8 @@ void add(Hasher& hasher, const scene::Texture& texture) {
 std::uint64_t fingerprint_of(const scene::Scene& scene,
                              const scene::Camera& camera,
                              const BakeParameters& parameters,
-                             std::string_view generator) {
+                             std::string_view generator,
+                             std::string_view signal) {
     Hasher hasher;
     hasher.add(generator);
     hasher.add(std::string_view(json_from_parameters(parameters).dump()));
@@ -121,6 +122,9 @@ std::uint64_t fingerprint_of(const scene::Scene& scene,
     hasher.add(std::uint64_t{scene.textures.size()});
     for (const scene::Texture& texture : scene.textures) {
         add(hasher, texture);
+    }
+    if (!signal.empty()) {
+        hasher.add(signal);
     }
     return hasher.digest();
 }

@@ -12,6 +12,7 @@ class ImageSubject final : public BakeSubject {
     // Keeps a reference to the caster. Throws SceneError.
     ImageSubject(const RayCaster& caster, const BakeParameters& parameters);
 
+    [[nodiscard]] const PixelReceivers& pixels() const { return pixels_; }
     [[nodiscard]] const Receivers& receivers() const override { return pixels_; }
     [[nodiscard]] std::unique_ptr<RowSource> rows() const override;
     [[nodiscard]] transport::SamplingError sampling_error(

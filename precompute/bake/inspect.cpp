@@ -66,10 +66,22 @@ void collect(std::vector<std::string>& faults, Check check) {
     }
 }
 
-std::string basis_text(const nlohmann::json& basis) {
-    return basis.contains("order")
-               ? fmt::format("spherical harmonics of order {}", basis.at("order").get<int>())
-               : "Haar";
+std::string signal_text(const nlohmann::json& d) {
+    const nlohmann::json& basis = d.at("basis");
+    if (d.contains("curves")) {
+        std::string text = "curves of";
+        for (const nlohmann::json& curve : d.at("curves")) {
+            text += fmt::format("{} {}.{}", &curve == &d.at("curves").front() ? "" : ",",
+                                curve.at("name").get<std::string>(),
+                                curve.at("curve").get<std::string>());
+        }
+        return fmt::format("{} under {}", text, d.at("light").value("environment", "a light"));
+    }
+    return fmt::format("6×{n}×{n} lights, {}",
+                       basis.contains("order") ? fmt::format("spherical harmonics of order {}",
+                                                             basis.at("order").get<int>())
+                                               : "Haar",
+                       fmt::arg("n", basis.at("face_resolution").get<int>()));
 }
 
 double pixels_of(const nlohmann::json& d) {
@@ -121,6 +133,21 @@ std::string lines_from_measured(const nlohmann::json& measured) {
                                 brdf.at("error").get<double>());
         }
     }
+    if (measured.contains("materials") && measured.at("materials").is_array()) {
+        for (const auto& material : measured.at("materials")) {
+            if (material.contains("measured")) {
+                text += fmt::format("  {} in curves of {}: L2 {:.2e}, logarithmic {:.2e}\n",
+                                    material.at("measured").get<std::string>(),
+                                    material.at("name").get<std::string>(),
+                                    material.at("error_relative_l2").get<double>(),
+                                    material.at("error_logarithmic").get<double>());
+            }
+            if (!material.value("in_view", true)) {
+                text += fmt::format("  warning: no pixel sees the edited material {}\n",
+                                    material.at("name").get<std::string>());
+            }
+        }
+    }
     if (measured.contains("chroma_residual")) {
         text += fmt::format("  what one channel would lose: L2 {:.2e}\n",
                             measured.at("chroma_residual").get<double>());
@@ -170,6 +197,17 @@ nlohmann::json describe(const std::filesystem::path& directory) {
         {"measured", manifest.measured}};
     const transport::TileGrid& image = manifest.mesh ? manifest.mesh->view : manifest.image();
     description["image"] = {{"width", image.width}, {"height", image.height}};
+    if (manifest.curves) {
+        description["curves"] = nlohmann::json::array();
+        for (const transport::CurveRecord& curve : manifest.curves->curves) {
+            description["curves"].push_back({{"id", curve.id},
+                                             {"name", curve.name},
+                                             {"curve", curve.curve},
+                                             {"angle", curve.angle},
+                                             {"brdf", curve.brdf}});
+        }
+        description["light"] = manifest.curves->light;
+    }
     if (manifest.mesh) {
         description["vertices"] = manifest.layout.clusters().vertex_count();
         description["clusters"] = manifest.layout.clusters().clusters().size();
@@ -189,6 +227,10 @@ nlohmann::json describe(const std::filesystem::path& directory) {
 }
 
 std::string exactness_text(const nlohmann::json& basis) {
+    if (!basis.contains("face_resolution")) {
+        return "  exact images are exact for light and interreflection as they are frozen in "
+               "it\n";
+    }
     return fmt::format(
         "  exact images are exact for the light as filtered onto 6×{n}×{n} texels "
         "(protocol/light.md)\n",
@@ -201,17 +243,20 @@ std::string text_from_description(const nlohmann::json& d) {
     const double receivers = is_mesh ? d.at("vertices").get<double>() : pixels_of(d);
     const char* receiver = is_mesh ? "vertex" : "pixel";
     std::string text = fmt::format(
-        "{}\n  {}, 6×{n}×{n} lights, {basis}; {} channel(s) in {} shard(s)\n"
+        "{}\n  {}, {signal}; {} channel(s) in {} shard(s)\n"
         "  {}, {:.0f} bytes and {:.0f} non-zeros per {}\n",
         d.at("directory").get<std::string>(), receivers_text(d),
         d.at("colour").at("channels").get<int>(), d.at("shards").get<int>(), megabytes(bytes),
         bytes / receivers, d.at("nonzeros").get<double>() / receivers, receiver,
-        fmt::arg("n", d.at("basis").at("face_resolution").get<int>()),
-        fmt::arg("basis", basis_text(d.at("basis"))));
+        fmt::arg("signal", signal_text(d)));
     if (const auto& error = d.at("sampling_error"); !error.is_null()) {
-        text +=
-            fmt::format("  sampling error: L2 {:.2e} under natural light, {:.2e} under sun\n",
-                        error.at("natural").get<double>(), error.at("sun").get<double>());
+        const char* const of_what =
+            d.contains("curves")
+                ? "  sampling error: L2 {:.2e} of likely curves, {:.2e} of curves that end "
+                  "abruptly\n"
+                : "  sampling error: L2 {:.2e} under natural light, {:.2e} under sun\n";
+        text += fmt::format(fmt::runtime(of_what), error.at("natural").get<double>(),
+                            error.at("sun").get<double>());
     }
     text += text_from_measured(d.at("measured"));
     text += exactness_text(d.at("basis"));

@@ -46,9 +46,9 @@ void remove_what_is_empty(const fs::path& directory) {
 
 // Whatever a bake writes under a name of its own: no folder may have it.
 void require_free_names(const fs::path& directory) {
-    for (const char* name :
-         {"manifest.json", "columns.bin", "receivers.bin", "sketch.bin", "report.json",
-          "view/albedo.exr", "view/depth.exr", "view/thumbnail.png", "view/picture.png"}) {
+    for (const char* name : {"manifest.json", "columns.bin", "receivers.bin", "sketch.bin",
+                             "report.json", "view/albedo.exr", "view/depth.exr",
+                             "view/thumbnail.png", "view/picture.png", "view/materials.png"}) {
         files::require_replaceable(directory / name);
     }
     for (const char* folder : {"shards", "partial"}) {

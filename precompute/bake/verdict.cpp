@@ -66,7 +66,14 @@ std::string purpose(const nlohmann::json& description) {
     const auto& image = description.at("image");
     const int bounces = description.at("bake").value("bounces", 0);
     std::string detail;
-    if (basis.contains("order")) {
+    if (description.contains("curves")) {
+        detail = "curves and diffuse colours of ";
+        for (const auto& curve : description.at("curves")) {
+            detail += (detail.back() == ' ' ? "" : ", ") + curve.at("name").get<std::string>();
+        }
+        detail += fmt::format(", under {}, with interreflection as it is",
+                              description.at("light").value("environment", "one light"));
+    } else if (basis.contains("order")) {
         const int order = basis.at("order").get<int>();
         detail = fmt::format(
             "soft light without sharp shadows, down to some {:.0f}° (spherical "
@@ -86,17 +93,25 @@ std::string purpose(const nlohmann::json& description) {
     return fmt::format("  good for {}; {}; {}\n", detail, bounces_text(bounces), view);
 }
 
-std::string sampling_error(const nlohmann::json& error) {
+// Of the image, under what.
+std::string signals_text(const nlohmann::json& description) {
+    return description.contains("curves")
+               ? "with likely curves, {} with curves that end abruptly (relative L2)\n"
+               : "under a natural map, {} under a bare sun (relative L2)\n";
+}
+
+std::string sampling_error(const nlohmann::json& description) {
+    const nlohmann::json& error = description.at("sampling_error");
     if (error.is_null()) {
         return {};
     }
     return fmt::format(
-        "  error of its sampling: {} of the image under a natural map, {} under a bare sun "
-        "(relative L2)\n",
+        fmt::runtime("  error of its sampling: {} of the image " + signals_text(description)),
         per_cent(error.at("natural").get<double>()), per_cent(error.at("sun").get<double>()));
 }
 
-std::string quantisation_error(const nlohmann::json& measured) {
+std::string quantisation_error(const nlohmann::json& description) {
+    const nlohmann::json& measured = description.at("measured");
     const auto found = measured.find("quantisation_error");
     if (found == measured.end() || !found->contains("natural") || !found->contains("sun")) {
         return {};
@@ -105,8 +120,7 @@ std::string quantisation_error(const nlohmann::json& measured) {
         return found->at(light).at("relative_l2").get<double>();
     };
     return fmt::format(
-        "  error of storing it: {} of the image under a natural map, {} under a "
-        "bare sun (relative L2)\n",
+        fmt::runtime("  error of storing it: {} of the image " + signals_text(description)),
         per_cent(of("natural")), per_cent(of("sun")));
 }
 
@@ -128,8 +142,8 @@ std::string verdict(const scene::ImportReport& report,
                     const std::filesystem::path& directory) {
     std::string text = fmt::format("{} is whole.\n", printable(directory.string()));
     text += purpose(description);
-    text += sampling_error(description.at("sampling_error"));
-    text += quantisation_error(description.at("measured"));
+    text += sampling_error(description);
+    text += quantisation_error(description);
     text += exactness_text(description.at("basis"));
     text += fmt::format("  {:.1f} MB to keep in memory\n",
                         description.at("bytes").get<double>() / 1e6);
@@ -140,9 +154,13 @@ std::string verdict(const scene::ImportReport& report,
     text += fmt::format("  see it:   {}\n",
                         printable((directory / "view" / "picture.png").string()));
     text += fmt::format("  serve it: relume-server --scenes {}\n", shell_word(folder.string()));
+    const std::string name = directory.stem().string();
     text +=
-        fmt::format("  light it: relume render --scene {} --environment FILE.hdr -o {}.png\n",
-                    directory.stem().string(), directory.stem().string());
+        description.contains("curves")
+            ? fmt::format("  look at it: relume render --scene {0} -o {0}.png\n", name)
+            : fmt::format(
+                  "  light it: relume render --scene {0} --environment FILE.hdr -o {0}.png\n",
+                  name);
     return text;
 }
 

@@ -22,6 +22,7 @@ struct ReceiverSurface {
     float share = 0;      // of the receiver, in (0, 1]
     float footprint = 0;  // of the receiver at the point, in world units
     std::uint32_t material = 0;
+    std::uint32_t number = 0;  // among the receiver's: it chooses the surface's random numbers
     // Where rays leave the surface, spread over what the receiver holds of it: just off it, as
     // offset_origin says. Any aligned run of 2^k of them is spread evenly.
     std::array<Imath::V3f, kPacketSize> origins{};

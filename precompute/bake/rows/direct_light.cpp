@@ -73,9 +73,8 @@ void DirectLight::compute(const Receiver& receiver,
     for (std::size_t c = 0; c < (row.is_grey ? 1U : 3U); ++c) {
         row.plane[c].assign(texels_.size(), 0.0F);
     }
-    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-        const ReceiverSurface& surface = surfaces[i];
-        light_surface(surface, jitter_shift(receiver.place, i, seed), scratch);
+    for (const ReceiverSurface& surface : surfaces) {
+        light_surface(surface, jitter_shift(receiver.place, surface.number, seed), scratch);
         Reflection& reflection = scratch.reflection;
         const Imath::V3f colour =
             surface.share *

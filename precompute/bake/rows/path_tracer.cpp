@@ -51,21 +51,19 @@ Imath::V3f reflectance(const scene::Bsdf& bsdf) {
 TracedReceiver PathTracer::trace(Receiver receiver) const {
     TracedReceiver traced{.receiver = std::move(receiver), .paths = {}};
     if (bounces_ > 0) {
-        const std::vector<ReceiverSurface>& surfaces = traced.receiver.surfaces;
-        for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-            traced.paths.push_back(trace_surface(surfaces[i], i, traced.receiver.place));
+        for (const ReceiverSurface& surface : traced.receiver.surfaces) {
+            traced.paths.push_back(trace_surface(surface, traced.receiver.place));
         }
     }
     return traced;
 }
 
 SurfacePaths PathTracer::trace_surface(const ReceiverSurface& surface,
-                                       std::uint32_t surface_number,
                                        const SequencePlace& place) const {
     SurfacePaths paths;
     paths.paths = std::max(1U, static_cast<std::uint32_t>(
                                    std::lround(surface.share * static_cast<float>(samples_))));
-    const std::uint64_t key = transport::mix_bits(seed_ + 1) + surface_number;
+    const std::uint64_t key = transport::mix_bits(seed_ + 1) + surface.number;
     const std::uint32_t first = place.run * samples_;
     for (std::uint32_t i = 0; i < paths.paths; ++i) {
         trace_path(surface, i, first + i, key, paths);

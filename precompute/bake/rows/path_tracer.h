@@ -93,10 +93,9 @@ class PathTracer {
 
     // Paths of all surfaces. Depends on nothing but its argument.
     [[nodiscard]] TracedReceiver trace(Receiver receiver) const;
-    // Paths of one surface, the receiver's `surface_number`th: its share of `samples`, at least
-    // one. Low-discrepancy within the receiver and across its neighbours (SequencePlace).
+    // Paths of one surface: its share of `samples`, at least one. Low-discrepancy within the
+    // receiver and across its neighbours (SequencePlace).
     [[nodiscard]] SurfacePaths trace_surface(const ReceiverSurface& surface,
-                                             std::uint32_t surface_number,
                                              const SequencePlace& place) const;
 
   private:

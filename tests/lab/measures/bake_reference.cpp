@@ -241,7 +241,7 @@ class ReferenceTracer {
         const std::uint32_t count = std::max(1U, options_.paths / (side * side));
         const bake::PathTracer tracer(caster_, options_.face_resolution, options_.bounces,
                                       count, seed);
-        const bake::SurfacePaths paths = tracer.trace_surface(surface, 0, place);
+        const bake::SurfacePaths paths = tracer.trace_surface(surface, place);
         const Imath::V3f factor =
             bake::reflectance(surface.point.bsdf) / static_cast<float>(paths.paths);
         auto key = paths.texels.begin();

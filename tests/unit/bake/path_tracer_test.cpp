@@ -29,7 +29,7 @@ class PathTracerTest : public testing::Test {
         view.surfaces.at(0).share = static_cast<float>(kPaths) / static_cast<float>(samples);
         const SurfacePaths paths =
             PathTracer(caster_, kFace, bounces, samples, seed)
-                .trace_surface(view.surfaces.at(0), 0, sequence_place_from_pixel(16, 20));
+                .trace_surface(view.surfaces.at(0), sequence_place_from_pixel(16, 20));
         EXPECT_EQ(paths.paths, kPaths);
         EXPECT_EQ(std::accumulate(paths.escapes.begin(), paths.escapes.end(), std::size_t{0},
                                   [](std::size_t sum, const Escapes& escapes) {

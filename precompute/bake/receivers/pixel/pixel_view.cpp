@@ -133,6 +133,7 @@ class PixelGatherer {
             one.surface.share = static_cast<float>(one.hits.size()) / casts;
             take_mean_colours(one);
             spread_over_hits(one);
+            one.surface.number = static_cast<std::uint32_t>(view.surfaces.size());
             view.surfaces.push_back(std::move(one.surface));
         }
         return view;

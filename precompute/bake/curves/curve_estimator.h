@@ -1,0 +1,54 @@
+// What one surface of a receiver shows of every sample of a curve of its BRDF, and of its
+// diffuse colour, under a light that stays as it is.
+#pragma once
+
+#include "precompute/bake/curves/edited_material.h"
+#include "precompute/bake/curves/frozen_radiance.h"
+#include "precompute/bake/receivers/receiver.h"
+#include "protocol/curve/curve.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+
+namespace relume::bake {
+
+// Radiance to the viewer is diffuse + Σ_k sample_k · c_k + what nobody edits.
+struct CurveShares {
+    Imath::V3f diffuse{0, 0, 0};  // of the diffuse colour as it is
+    std::array<std::array<float, curve::kCurveSamples>, 3> samples{};  // red, green and blue
+};
+
+// Estimates ∫ L ρ_q hat_k cos dω for all k, ρ_q being the BRDF without the edited curve, and ∫
+// L f_diffuse cos dω, from the same rays. Their directions are drawn in three ways, which are
+// joined by the balance heuristic [Veach97]: evenly over the samples of a curve
+// (angle_sampling), by the power of the light, and by the cosine. So every sample gets its
+// share whatever the light is, a small bright light is found whatever the curve is, and the
+// estimate is unbiased for every curve. L is the light where a ray leaves the scene, else
+// FrozenRadiance.
+//
+// Thread-safe. Depends on nothing but its arguments.
+class CurveEstimator {
+  public:
+    // `samples`: of a receiver, by the cosine; four times as many by the angle, so that of 64
+    // every sample of a curve has one, and twice as many by the light. Keeps a reference to
+    // `radiance`.
+    CurveEstimator(const FrozenRadiance& radiance, std::uint32_t samples, std::uint64_t seed)
+        : radiance_(radiance), samples_(samples), seed_(seed) {}
+
+    // Of the surface as if it filled the receiver, by its share of the samples. Adds to `rays`
+    // those cast.
+    void estimate(const ReceiverSurface& surface,
+                  const SequencePlace& place,
+                  const EditedMaterial& material,
+                  CurveShares& shares,
+                  std::uint64_t& rays) const;
+
+  private:
+    const FrozenRadiance& radiance_;
+    std::uint32_t samples_;
+    std::uint64_t seed_;
+};
+
+}  // namespace relume::bake

@@ -1,0 +1,146 @@
+#include "precompute/bake/curves/edited_material.h"
+
+#include "precompute/bake/curves/curve_model.h"
+#include "protocol/base/program/usage.h"
+#include "protocol/base/text/names.h"
+#include "protocol/base/text/near_names.h"
+#include "protocol/curve/curve_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace relume::bake {
+namespace {
+
+std::vector<std::string> material_names(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const scene::Material& material : scene.materials) {
+        names.push_back(material.name);
+    }
+    return names;
+}
+
+std::optional<std::uint32_t> find_material(const scene::Scene& scene, std::string_view name) {
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        if (scene.materials[i].name == name) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+// MATERIAL or MATERIAL.CURVE; names of materials may hold dots.
+struct Edit {
+    std::uint32_t material = 0;
+    std::string curve;
+};
+
+Edit edit_from_text(const scene::Scene& scene, const std::string& text) {
+    if (const auto whole = find_material(scene, text)) {
+        return {.material = *whole, .curve = {}};
+    }
+    const std::size_t dot = text.rfind('.');
+    if (dot != std::string::npos) {
+        if (const auto before = find_material(scene, text.substr(0, dot))) {
+            return {.material = *before, .curve = text.substr(dot + 1)};
+        }
+    }
+    throw program::UsageError(fmt::format(
+        "--edit {}: the scene has no such material, expected {}", text,
+        text::expected_name(text.substr(0, dot), material_names(scene), "materials")));
+}
+
+// Letters that a name has none of become dashes; a name that is taken gets a number.
+std::string id_from_name(const std::string& name, std::set<std::string>& taken) {
+    std::string id = name.substr(0, text::kMaxNameLength - 3);
+    for (char& letter : id) {
+        if (!text::is_name(std::string("a") + letter)) {
+            letter = '-';
+        }
+    }
+    if (!text::is_name(id)) {
+        id = "material" + id;
+    }
+    std::string free = id;
+    for (int number = 2; !taken.insert(free).second; ++number) {
+        free = fmt::format("{}-{}", id, number);
+    }
+    return free;
+}
+
+std::size_t usual_curve(const curve::CurveBrdf& brdf) {
+    for (const curve::CurveAngle angle :
+         {curve::CurveAngle::half, curve::CurveAngle::reflection, curve::CurveAngle::along_u}) {
+        if (const auto index = brdf.index_of(angle)) {
+            return *index;
+        }
+    }
+    return 0;
+}
+
+std::size_t curve_index(const curve::CurveBrdf& brdf,
+                        const std::string& name,
+                        const std::string& material) {
+    if (name.empty()) {
+        return usual_curve(brdf);
+    }
+    try {
+        return brdf.index_of(name);
+    } catch (const curve::CurveError& error) {
+        throw program::UsageError(
+            fmt::format("--edit {}.{}: {}", material, name, error.what()));
+    }
+}
+
+}  // namespace
+
+std::vector<EditedMaterial> edited_materials(const scene::Scene& scene,
+                                             const CurveRequest& request,
+                                             std::span<const MeasuredBrdf> measured) {
+    StatedModels models(request, measured);
+    std::vector<EditedMaterial> materials;
+    std::set<std::string> taken;
+    for (const std::string& text : request.edits) {
+        const Edit edit = edit_from_text(scene, text);
+        const scene::Material& material = scene.materials[edit.material];
+        const bool is_listed = std::any_of(
+            materials.begin(), materials.end(),
+            [&](const EditedMaterial& other) { return other.material == edit.material; });
+        if (is_listed) {
+            throw program::UsageError(fmt::format(
+                "--edit {}: the material is listed twice, expected one curve of each material",
+                text));
+        }
+        if (materials.size() == transport::CurvesSection::kMostCurves) {
+            throw program::UsageError(
+                fmt::format("--edit has {} materials, expected at most {}",
+                            request.edits.size(), transport::CurvesSection::kMostCurves));
+        }
+        StatedModel stated = models.take(material);
+        const std::size_t index = curve_index(stated.brdf, edit.curve, material.name);
+        materials.push_back({.material = edit.material,
+                             .name = material.name,
+                             .id = id_from_name(material.name, taken),
+                             .brdf = std::move(stated.brdf),
+                             .curve = index,
+                             .albedo = stated.albedo,
+                             .notes = std::move(stated.notes)});
+    }
+    models.require_all_taken();
+    return materials;
+}
+
+transport::CurveRecord record_of(const EditedMaterial& material) {
+    const curve::BrdfCurve& curve = material.brdf.curves()[material.curve];
+    return {.id = material.id,
+            .name = material.name,
+            .curve = std::string(curve.name()),
+            .angle = std::string(curve::kCurveAngleNames.name(curve.angle)),
+            .brdf = curve::json_from_curve_brdf(material.brdf),
+            .baked = curve.curve.rgb};
+}
+
+}  // namespace relume::bake
