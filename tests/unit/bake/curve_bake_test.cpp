@@ -3,9 +3,11 @@
 #include "precompute/bake/inspect.h"
 #include "precompute/bake/relight.h"
 #include "precompute/scene/builtin.h"
+#include "protocol/base/files/atomic_file.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/basis/curve_basis.h"
 #include "protocol/transport/transport.h"
+#include "tests/support/merl_file.h"
 #include "tests/support/scratch_directory.h"
 
 #include <gtest/gtest.h>
@@ -132,6 +134,31 @@ TEST_F(CurveBake, HasTheSameBytesOnAnyNumberOfThreads) {
         sums.push_back(manifest.shards.front().header_checksum);
     }
     EXPECT_EQ(sums[0], sums[1]);
+}
+
+// A measured BRDF that is a diffuse colour and a product of curves is found again.
+TEST_F(CurveBake, TakesAMeasuredMaterialAsCurves) {
+    const auto file = scratch_.path() / "cloth.binary";
+    const curve::CurveBrdf velvet = curve::CurveBrdf::ggx({0.3F, 0.1F, 0.1F}, 0.8F, 0.4F);
+    const std::vector<std::byte> bytes =
+        test::merl_file([&](const Imath::V3f& wi, const Imath::V3f& wo) {
+            return Imath::V3f(0.05F, 0.02F, 0.02F) + velvet.evaluate(wi, wo);
+        });
+    files::write_file_atomically(file, {bytes});
+    const std::vector<MeasuredBrdf> measured{read_measured_brdf("cloth=" + file.string())};
+    const CurveEdits of_cloth{
+        .light = frozen_light({.environment = "sky-noon"}, 8),
+        .materials = edited_materials(scene_, {.edits = {"cloth.fresnel"}}, measured)};
+    ASSERT_EQ(of_cloth.materials.size(), 1U);
+    EXPECT_EQ(of_cloth.materials[0].brdf.model(), curve::CurveModel::measured);
+    EXPECT_TRUE(of_cloth.materials[0].albedo);
+    EXPECT_LT(of_cloth.materials[0].notes.at("error_relative_l2").get<double>(), 0.1);
+    const auto path = scratch_.path() / "e.relume";
+    bake_curves(scene_, parameters_, of_cloth, path, {}, measured);
+    const std::string text = text_from_description(describe(path));
+    EXPECT_NE(text.find("cloth.binary in curves of cloth"), std::string::npos) << text;
+    EXPECT_THROW((void)edited_materials(scene_, {.edits = {"pearl"}}, measured),
+                 program::UsageError);
 }
 
 TEST_F(CurveBake, SaysWhichMaterialNoPixelSees) {
