@@ -15,15 +15,15 @@ void add_curve_options(CLI::App& app, Arguments& arguments) {
            "--edit", arguments.curves.edits,
            "Bake curves in place of light: MATERIAL or MATERIAL.CURVE, a curve of its BRDF "
            "that people edit; several with commas")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option(
-        "--model", arguments.curves.models,
-        "BRDF of an edited material: MATERIAL=ggx, cook-torrance, ashikhmin-shirley or "
-        "phong, with :PARAMETER=VALUE,…, a colour as r/g/b [the scene's]");
-    app.add_option(
-        "--measured", arguments.curves.measured,
-        "Measured BRDF of an edited material, factored into curves: MATERIAL=FILE.binary "
-        "as of the MERL database");
+           "--model", arguments.curves.models,
+           "BRDF of an edited material: MATERIAL=ggx, cook-torrance, ashikhmin-shirley or "
+           "phong, with :PARAMETER=VALUE,…, a colour as r/g/b [the scene's]")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--environment", arguments.frozen_light.environment,
                    "Light of a bake of curves: a map, HDR or EXR, or one made by formula, as "
                    "sky-noon");

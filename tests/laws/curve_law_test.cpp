@@ -71,7 +71,7 @@ std::vector<Imath::V3d> image_of_curves(const scene::Scene& scene,
     const bake::PixelReceivers pixels(caster, parameters);
     const bake::CurveRows rows(caster, pixels, light, materials, parameters);
     const auto signal = bake::signal_from_curves(curves);
-    std::vector<Imath::V3d> image(pixels.receiver_count());
+    std::vector<Imath::V3d> image(pixels.receiver_count(), Imath::V3d(0, 0, 0));
     tbb::parallel_for(std::size_t{0}, image.size(), [&](std::size_t pixel) {
         std::vector<bake::CoefficientRow> row;
         ASSERT_TRUE(rows.bake_alone(pixel, row));
@@ -129,7 +129,7 @@ TEST(CurveLaw, CurvesAsBakedShowTheSceneWithItsInterreflection) {
     const Estimate ours = estimate_from_curves(
         scene, parameters, frozen_light_of(texels, parameters.face_resolution), materials,
         curves_as_baked(materials));
-    constexpr std::uint32_t kSamples = 4096;
+    constexpr std::uint32_t kSamples = 2048;
     const auto truth = reference::trace(
         scene, reference::Sky::from_cubemap(parameters.face_resolution, texels),
         {.width = kSide,
@@ -227,7 +227,7 @@ TEST(CurveLaw, AnyCurvesShowWhatABrdfOfThoseCurvesReflects) {
     const Estimate ours = estimate_from_curves(
         scene, parameters, frozen_light_of(texels, parameters.face_resolution), materials,
         curves);
-    constexpr std::uint32_t kSamples = 8192;
+    constexpr std::uint32_t kSamples = 4096;
     const auto truth = reflect_with_curves(
         scene, reference::Sky::from_cubemap(parameters.face_resolution, texels), by_material,
         kSamples);
