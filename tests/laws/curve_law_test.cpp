@@ -38,7 +38,7 @@ bake::BakeParameters law_parameters(std::uint32_t bounces) {
     parameters.width = parameters.height = kSide;
     parameters.face_resolution = 16;
     parameters.bounces = bounces;
-    parameters.samples = 64;
+    parameters.samples = 16;
     return parameters;
 }
 

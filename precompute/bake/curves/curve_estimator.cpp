@@ -14,7 +14,7 @@ namespace relume::bake {
 namespace {
 
 enum Way : std::uint8_t { kByAngle, kByLight, kByCosine, kWays };
-constexpr std::array<std::uint32_t, kWays> kSamplesOfWay{4, 2, 1};
+constexpr std::array<std::uint32_t, kWays> kSamplesOfWay{12, 6, 3};
 
 Imath::V3f cosine_direction(const Imath::V2f& u) {
     const float radius = std::sqrt(u.x);

@@ -31,9 +31,9 @@ struct CurveShares {
 // Thread-safe. Depends on nothing but its arguments.
 class CurveEstimator {
   public:
-    // `samples`: of a receiver, by the cosine; four times as many by the angle, so that of 64
-    // every sample of a curve has one, and twice as many by the light. Keeps a reference to
-    // `radiance`.
+    // `samples`: of a receiver, as of a bake of light; twelve times as many are drawn by the
+    // angle, so that with 64 every sample of a curve has three, six times by the light, and
+    // three times by the cosine. Keeps a reference to `radiance`.
     CurveEstimator(const FrozenRadiance& radiance, std::uint32_t samples, std::uint64_t seed)
         : radiance_(radiance), samples_(samples), seed_(seed) {}
 

@@ -92,7 +92,7 @@ class CurveBake : public testing::Test {
                                .height = 32,
                                .face_resolution = 8,
                                .bounces = 1,
-                               .samples = 16,
+                               .samples = 8,
                                .pixel_samples = 4};
     test::ScratchDirectory scratch_;
 };

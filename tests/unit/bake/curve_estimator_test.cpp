@@ -107,7 +107,7 @@ class CurveEstimatorTest : public testing::Test {
         for (std::uint64_t seed = 0; seed < 24; ++seed) {
             CurveShares shares;
             std::uint64_t rays = 0;
-            CurveEstimator(radiance, 64, seed)
+            CurveEstimator(radiance, 24, seed)
                 .estimate(receiver.surfaces.front(), receiver.place, material, shares, rays);
             EXPECT_GT(rays, 64U);
             double sum = 0;
