@@ -1,7 +1,7 @@
 /**
- * Takes client/web/pictures/studio.png and street.jpg anew: `tests/browser/run` sets the same
- * variables. Of a scene whose camera moves the picture is taken from elsewhere, of another the
- * lights are set up.
+ * Takes client/web/pictures/studio.png, street.jpg and earrings.jpg anew: `tests/browser/run`
+ * sets the same variables. Of a scene whose camera moves the picture is taken from elsewhere, of
+ * one whose materials are edited some are, of another the lights are set up.
  * usage: STUDIO_SERVER=… STUDIO_SCENES=… STUDIO_WEB_ROOT=… CHROMIUM=… node take-picture.mjs FILE
  */
 import { Server } from "./programs.mjs";
@@ -25,9 +25,21 @@ try {
     );
     const { page } = studio;
     await studio.untilExact();
-    await page.locator(".environment", { hasText: /^sunset$/ }).click();
-    await studio.until((relume) => relume.state.environment.name === "sunset");
-    if (await page.locator("#camera-card").isVisible()) {
+    const editsMaterials = await page.locator("#materials-card").isVisible();
+    if (!editsMaterials) {
+        await page.locator(".environment", { hasText: /^sunset$/ }).click();
+        await studio.until((relume) => relume.state.environment.name === "sunset");
+    }
+    if (editsMaterials) {
+        await page.locator('[data-material="cloth"]').click();
+        await studio.type("diffuse colour", "#3a60ff");
+        await studio.type("diffuse EV", "2");
+        await page.locator('[data-material="post"]').click();
+        await page.locator('[data-preset="gold"]').click();
+        await page.locator('[data-material="pearl"]').click();
+        await studio.type("roughness", "0.07");
+        await page.locator('[data-axis="log"]').click();
+    } else if (await page.locator("#camera-card").isVisible()) {
         await studio.drag(290, -55, { steps: 20 });
     } else {
         for (const light of ["key", "fill"]) {
