@@ -88,7 +88,7 @@ TEST(CurveFactors, RecoverAProduct) {
     }
 }
 
-// Three materials as published fits of measured ones have them, each as a file in MERL's
+// Three materials of parameters that resemble measured ones, each as a file in MERL's
 // layout. Nickel: Cook and Torrance's microfacets with the index measured for nickel. Plastic:
 // a diffuse layer under a dielectric. Velvet: the distribution of [Ashikhmin07] with its
 // smooth shadowing over a dark diffuse ground.
