@@ -93,7 +93,7 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                    "Radius in pixels within which paths are shared; 0: not at all")
         ->capture_default_str();
     app.add_option("--shrinkage", p.shrinkage,
-                   "Standard errors an indirect coefficient must stand clear of")
+                   "Standard errors that a group of indirect coefficients must pass")
         ->capture_default_str();
     app.add_option("--receivers", p.receivers,
                    "What the bake is of: pixels of one image, or vertices of the surface, for "

@@ -7,7 +7,7 @@
 namespace relume::bake {
 
 [[nodiscard]] constexpr std::string_view generator() {
-    return "relume-bake 0.4.2";
+    return "relume-bake 0.4.3";
 }
 
 }  // namespace relume::bake

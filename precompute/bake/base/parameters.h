@@ -27,7 +27,7 @@ struct BakeParameters {
     std::uint32_t pixel_samples = 16;  // camera sub-positions per pixel
     std::uint32_t edge_samples = 8;    // more visibility rays per texel at shadow edges
     std::uint32_t pool_radius = 4;     // pixels whose paths are shared; 0: none
-    float shrinkage = 2.0F;            // standard errors a coefficient must stand clear of
+    float shrinkage = 1.1F;            // standard errors a group of coefficients must pass
     // Of vertices:
     std::uint32_t vertices = 250'000;  // at most
     double target_error = 0.02;       // relative L2 that is asked of interpolation and of terms

@@ -132,7 +132,7 @@ void DirectLight::reflect_from_turns(const ReceiverSurface& surface, Scratch& sc
         plane->assign(texels_.size(), 0.0F);
     }
     for (const scene::SurfacePoint& point : surface.turns) {
-        reflect_light(texels_, point, turn);
+        reflect_light(texels_, point, turn, TexelDetail::one_of_many);
         if (sum.is_diffuse) {
             add_scaled(turn.grey, each, sum.grey);
             continue;

@@ -20,9 +20,19 @@ struct Normals {
     Imath::V3f geometric;
 };
 
+// Vector irradiance of the part of a texel that is above both horizons.
 Imath::V3d clipped_irradiance(const LightTexels& texels,
                               std::size_t place,
-                              const Normals& normals) {
+                              const Normals& normals,
+                              TexelDetail detail) {
+    if (detail == TexelDetail::one_of_many) {
+        const Imath::V3f centroid(texels.direction_x()[place], texels.direction_y()[place],
+                                  texels.direction_z()[place]);
+        const float height =
+            std::min(centroid.dot(normals.shading), centroid.dot(normals.geometric));
+        return Imath::V3d(height > 0 ? centroid * texels.irradiance()[place]
+                                     : Imath::V3f(0, 0, 0));
+    }
     SphericalPolygon polygon = texels.polygon(place);
     polygon.clip(Imath::V3d(normals.shading));
     polygon.clip(Imath::V3d(normals.geometric));
@@ -78,7 +88,10 @@ RELUME_CPU_CLONES void cosines(const Imath::V3f& normal,
     }
 }
 
-void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflection& out) {
+void reflect_diffuse(const LightTexels& texels,
+                     const Normals& normals,
+                     TexelDetail detail,
+                     Reflection& out) {
     const float* x = texels.direction_x().data();
     const float* y = texels.direction_y().data();
     const float* z = texels.direction_z().data();
@@ -93,7 +106,7 @@ void reflect_diffuse(const LightTexels& texels, const Normals& normals, Reflecti
         [&](std::size_t place, bool is_below) {
             grey[place] = is_below ? 0.0F
                                    : std::max(0.0F, s.dot(Imath::V3f(clipped_irradiance(
-                                                        texels, place, normals))));
+                                                        texels, place, normals, detail))));
         },
         [&](std::size_t first) { std::fill_n(grey + first, kPacketSize, 0.0F); });
 }
@@ -104,15 +117,16 @@ enum class TexelRule : std::uint8_t { centroid, coarse, fine, sampled };
 
 class TexelRules {
   public:
-    TexelRules(const LightTexels& texels, const scene::SurfacePoint& point)
-        : width_(scene::lobe_width(point)),
+    TexelRules(const LightTexels& texels, const scene::SurfacePoint& point, TexelDetail detail)
+        : smooth_(detail == TexelDetail::sole_point ? kSmooth : kSmoothOfMany),
+          width_(scene::lobe_width(point)),
           texel_(2.0F / static_cast<float>(texels.face_resolution())),
           mirror_(scene::mirror_direction(point)) {}
 
     // Whether the lobe is smooth across every texel within `radius` of a direction.
     [[nodiscard]] bool is_smooth_around(const Imath::V3f& direction, float radius) const {
         const float nearest = (direction - mirror_).length() - 2 * radius;
-        return texel_ < kSmooth * std::max(width_, 0.5F * nearest);
+        return texel_ < smooth_ * std::max(width_, 0.5F * nearest);
     }
 
     [[nodiscard]] TexelRule rule(const Imath::V3f& direction) const {
@@ -122,7 +136,7 @@ class TexelRules {
         const float coarseness = texel_ / std::max(width_, 0.5F * away);
         constexpr float kCoarseResolves = 0.6F;
         constexpr float kFineResolves = 2.5F;
-        return coarseness < kSmooth           ? TexelRule::centroid
+        return coarseness < smooth_           ? TexelRule::centroid
                : coarseness < kCoarseResolves ? TexelRule::coarse
                : coarseness < kFineResolves   ? TexelRule::fine
                                               : TexelRule::sampled;
@@ -130,7 +144,9 @@ class TexelRules {
 
   private:
     static constexpr float kSmooth = 0.2F;
+    static constexpr float kSmoothOfMany = 1.2F;
 
+    float smooth_;
     float width_;
     float texel_;
     Imath::V3f mirror_;
@@ -226,8 +242,9 @@ void set_sum(const SplitTexel& split, Reflection& out) {
 
 void split_texels(const LightTexels& texels,
                   const scene::SurfacePoint& point,
+                  TexelDetail detail,
                   Reflection& out) {
-    const TexelRules rules(texels, point);
+    const TexelRules rules(texels, point, detail);
     std::vector<SplitTexel> peaks;
     for (std::size_t place = 0; place < texels.size(); ++place) {
         const std::size_t packet = place / kPacketSize;
@@ -267,6 +284,7 @@ void split_texels(const LightTexels& texels,
 void reflect_glossy(const LightTexels& texels,
                     const scene::SurfacePoint& point,
                     const Normals& normals,
+                    TexelDetail detail,
                     Reflection& out) {
     const std::array<std::span<const float>, 3> centroid{
         texels.direction_x(), texels.direction_y(), texels.direction_z()};
@@ -283,8 +301,9 @@ void reflect_glossy(const LightTexels& texels,
     for_each_packet(
         texels, normals, [](std::size_t) {},
         [&](std::size_t place, bool is_below) {
-            const Imath::V3f clipped(is_below ? Imath::V3d(0, 0, 0)
-                                              : clipped_irradiance(texels, place, normals));
+            const Imath::V3f clipped(is_below
+                                         ? Imath::V3d(0, 0, 0)
+                                         : clipped_irradiance(texels, place, normals, detail));
             out.projected[place] = clipped.length();
             if (out.projected[place] > 0) {
                 set_direction(place, clipped / out.projected[place]);
@@ -311,20 +330,21 @@ void reflect_glossy(const LightTexels& texels,
             }
         }
     }
-    split_texels(texels, point, out);
+    split_texels(texels, point, detail, out);
 }
 
 }  // namespace
 
 void reflect_light(const LightTexels& texels,
                    const scene::SurfacePoint& point,
-                   Reflection& reflection) {
+                   Reflection& reflection,
+                   TexelDetail detail) {
     const Normals normals{point.shading.normal, point.geometric_normal};
     reflection.is_diffuse = point.bsdf.is_diffuse();
     reflection.split.clear();
     if (reflection.is_diffuse) {
         reflection.grey.resize(texels.size());
-        reflect_diffuse(texels, normals, reflection);
+        reflect_diffuse(texels, normals, detail, reflection);
         return;
     }
     for (std::size_t c = 0; c < 3; ++c) {
@@ -332,7 +352,7 @@ void reflect_light(const LightTexels& texels,
         reflection.direction[c].resize(texels.size());
     }
     reflection.projected.resize(texels.size());
-    reflect_glossy(texels, point, normals, reflection);
+    reflect_glossy(texels, point, normals, detail, reflection);
 }
 
 }  // namespace relume::bake

@@ -34,9 +34,16 @@ struct Reflection {
     std::array<std::vector<float>, 3> direction;  // scratch
 };
 
+// How exact the integral over a texel is. The reflections of several points are averaged where
+// a surface turns within its receiver, and what each is off by goes under in how they differ:
+// one of many takes or leaves a texel at the horizon as a whole, by its centroid, and takes the
+// lobe there unless it is narrower than the texel.
+enum class TexelDetail : std::uint8_t { sole_point, one_of_many };
+
 // grey: ∫ cos θ dω / π, so that grey × albedo is the response.
 void reflect_light(const LightTexels& texels,
                    const scene::SurfacePoint& point,
-                   Reflection& reflection);
+                   Reflection& reflection,
+                   TexelDetail detail = TexelDetail::sole_point);
 
 }  // namespace relume::bake

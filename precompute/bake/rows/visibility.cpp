@@ -15,6 +15,10 @@ constexpr std::uint8_t kUnknown = 0;
 constexpr std::uint8_t kBlocked = 1;
 constexpr std::uint8_t kOpen = 2;
 
+// Of the further rays at an edge, the part that goes where only the wider surroundings
+// disagree: such a texel is less likely to be cut, and there are more of them.
+constexpr float kOfNear = 0.5F;
+
 // x in [0, 2) to [0, 1).
 inline float wrap_once(float x) {
     return x >= 1 ? x - 1 : x;
@@ -47,18 +51,46 @@ RELUME_CPU_CLONES void spread_lanes(std::uint32_t wanted,
     }
 }
 
-// Whether the four neighbours of each texel of a row disagree. `side` is from row to row.
+// Columns and rows of unknown states around each face.
+constexpr std::size_t kBorder = 2;
+
+// Where the states of a row of texels begin; rows count over all faces of n².
+constexpr std::size_t first_state(std::size_t row, std::size_t n) {
+    return (row + 2 * kBorder * (row / n) + kBorder) * (n + 2 * kBorder) + kBorder;
+}
+
+// States that the texels of a row and two on either side have together; in `beside` without
+// their own.
+RELUME_CPU_CLONES void join_columns(const std::uint8_t* state,
+                                    std::size_t count,
+                                    std::uint8_t* joined,
+                                    std::uint8_t* beside) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* at = state + i;
+        beside[i] = static_cast<std::uint8_t>(*(at - 2) | *(at - 1) | at[1] | at[2]);
+        joined[i] = static_cast<std::uint8_t>(beside[i] | *at);
+    }
+}
+
+// Which texels of a row are at an edge, and how near. `side` is from row to row, of states and
+// of `joined`.
 RELUME_CPU_CLONES void flag_edges(const std::uint8_t* state,
+                                  const std::uint8_t* joined,
+                                  const std::uint8_t* beside,
                                   std::size_t side,
                                   std::size_t count,
                                   std::uint8_t* flags) {
+    constexpr std::uint8_t kBoth = kBlocked | kOpen;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* at = state + i;
-        const auto around =
+        const std::uint8_t* rows = joined + i;
+        const auto four =
             static_cast<std::uint8_t>(at[1] | *(at - 1) | at[side] | *(at - side));
-        flags[i] =
-            static_cast<std::uint8_t>(static_cast<unsigned>(around == (kBlocked | kOpen)) &
-                                      static_cast<unsigned>(*at != kUnknown));
+        const auto all = static_cast<std::uint8_t>(
+            beside[i] | *(rows - 2 * side) | *(rows - side) | rows[side] | rows[2 * side]);
+        const auto near = static_cast<std::uint8_t>(four == kBoth);
+        const auto around = static_cast<std::uint8_t>(all == kBoth);
+        flags[i] = *at == kUnknown ? std::uint8_t{0} : static_cast<std::uint8_t>(near + around);
     }
 }
 
@@ -101,16 +133,15 @@ void Visibility::compute(const std::array<Imath::V3f, kPacketSize>& origins,
                          std::span<const float> wanted,
                          std::span<float> open,
                          Scratch& scratch) const {
-    const std::size_t side = texels_.face_resolution() + 2;
+    const std::size_t side = texels_.face_resolution() + 2 * kBorder;
     scratch.state.assign(basis::kFaceCount * side * side, kUnknown);
     RayPacket packet(origins);
     cast_first(packet, shift, wanted, open, scratch);
     if (!column_samples_.empty()) {
-        const auto extra = static_cast<std::size_t>(
-            std::ceil(share * static_cast<float>(column_samples_.size())));
         find_edges(scratch);
-        aim_at_edges(shift, extra, scratch);
-        refine_edges(packet, extra, open, scratch);
+        const float most = share * static_cast<float>(column_samples_.size());
+        refine(packet, shift, scratch.near, most, open, scratch);
+        refine(packet, shift, scratch.around, kOfNear * most, open, scratch);
     }
 }
 
@@ -120,7 +151,7 @@ void Visibility::cast_first(RayPacket& packet,
                             std::span<float> open,
                             Scratch& scratch) const {
     const std::size_t n = texels_.face_resolution();
-    const std::size_t side = n + 2;
+    const std::size_t side = n + 2 * kBorder;
     alignas(64) std::array<float, kPacketSize> columns;
     alignas(64) std::array<float, kPacketSize> rows;
     alignas(64) std::array<std::uint32_t, kPacketSize> states;
@@ -139,7 +170,7 @@ void Visibility::cast_first(RayPacket& packet,
         spread_lanes(mask, free, &open[first], states.data());
         const std::size_t texel = texels_.texel_index(first);
         const std::size_t row = texel / n;  // over all faces
-        std::uint8_t* state = &scratch.state[(row + 2 * (row / n) + 1) * side + texel % n + 1];
+        std::uint8_t* state = &scratch.state[first_state(row, n) + texel % n];
         for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
             state[lane / LightTexels::kPacketSide * side + lane % LightTexels::kPacketSide] =
                 static_cast<std::uint8_t>(states[lane]);
@@ -149,30 +180,53 @@ void Visibility::cast_first(RayPacket& packet,
 
 void Visibility::find_edges(Scratch& scratch) const {
     const std::size_t n = texels_.face_resolution();
-    const std::size_t side = n + 2;
-    scratch.edges.clear();
+    const std::size_t side = n + 2 * kBorder;
+    const std::size_t rows = basis::kFaceCount * side;
+    scratch.joined.resize(rows * side);
+    scratch.beside.resize(rows * side);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t first = row * side + kBorder;
+        join_columns(&scratch.state[first], n, &scratch.joined[first], &scratch.beside[first]);
+    }
+    scratch.near.clear();
+    scratch.around.clear();
     scratch.at_edge.resize(n);
     for (std::size_t row = 0; row < basis::kFaceCount * n; ++row) {
-        flag_edges(&scratch.state[(row + 2 * (row / n) + 1) * side + 1], side, n,
-                   scratch.at_edge.data());
+        const std::size_t first = first_state(row, n);
+        flag_edges(&scratch.state[first], &scratch.joined[first], &scratch.beside[first], side,
+                   n, scratch.at_edge.data());
         for (std::size_t column = 0; column < n; ++column) {
             if (scratch.at_edge[column] != 0) {
-                scratch.edges.push_back(static_cast<std::uint32_t>(
+                std::vector<std::uint32_t>& edges =
+                    scratch.at_edge[column] == 1 ? scratch.around : scratch.near;
+                edges.push_back(static_cast<std::uint32_t>(
                     texels_.place_from_texel_index(row * n + column)));
             }
         }
     }
 }
 
+void Visibility::refine(RayPacket& packet,
+                        const JitterShift& shift,
+                        std::span<const std::uint32_t> edges,
+                        float most,
+                        std::span<float> open,
+                        Scratch& scratch) const {
+    const auto extra = static_cast<std::size_t>(std::ceil(most));
+    aim_at_edges(shift, edges, extra, scratch);
+    cast_at_edges(packet, edges, extra, open, scratch);
+}
+
 // Directions of all further rays, edge by edge.
 void Visibility::aim_at_edges(const JitterShift& shift,
+                              std::span<const std::uint32_t> edges,
                               std::size_t extra,
                               Scratch& scratch) const {
     for (auto& plane : scratch.directions) {
-        plane.resize(scratch.edges.size() * extra);
+        plane.resize(edges.size() * extra);
     }
-    for (std::size_t i = 0; i < scratch.edges.size(); ++i) {
-        const std::size_t place = scratch.edges[i];
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const std::size_t place = edges[i];
         const std::size_t lane = place % kPacketSize;
         const float column = wrap_once(texels_.jitter_column()[place] + shift.column[lane]);
         const float row = wrap_once(texels_.jitter_row()[place] + shift.row[lane]);
@@ -186,11 +240,12 @@ void Visibility::aim_at_edges(const JitterShift& shift,
     }
 }
 
-void Visibility::refine_edges(RayPacket& packet,
-                              std::size_t extra,
-                              std::span<float> open,
-                              Scratch& scratch) const {
-    const std::size_t count = scratch.edges.size() * extra;
+void Visibility::cast_at_edges(RayPacket& packet,
+                               std::span<const std::uint32_t> edges,
+                               std::size_t extra,
+                               std::span<float> open,
+                               Scratch& scratch) const {
+    const std::size_t count = edges.size() * extra;
     for (std::size_t first = 0; first < count; first += kPacketSize) {
         const std::size_t lanes = std::min(kPacketSize, count - first);
         std::copy_n(&scratch.directions[0][first], lanes, packet.x());
@@ -200,12 +255,12 @@ void Visibility::refine_edges(RayPacket& packet,
             caster_.unoccluded(packet, static_cast<std::uint32_t>((1U << lanes) - 1));
         for (; free != 0; free &= free - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(free));
-            open[scratch.edges[(first + lane) / extra]] += 1;
+            open[edges[(first + lane) / extra]] += 1;
         }
     }
     scratch.rays += count;
     const float weight = 1.0F / static_cast<float>(extra + 1);
-    for (const std::uint32_t place : scratch.edges) {
+    for (const std::uint32_t place : edges) {
         open[place] *= weight;
     }
 }

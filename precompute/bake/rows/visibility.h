@@ -1,10 +1,12 @@
 // How much of each texel of the light the surface in a receiver sees.
 //
 // One ray through every texel the surface could be lit from, jittered within the texel, from
-// one of sixteen places of the surface; where the neighbours of a texel disagree a shadow's
-// edge passes in the light or in the receiver, and more rays follow, from several of the
-// places. Which texels get more is decided by their neighbours alone, never by their own ray,
-// so the estimate stays unbiased; the rays of one texel are stratified over it.
+// one of sixteen places of the surface; where the four texels beside a texel disagree a
+// shadow's edge passes in the light or in the receiver, and more rays follow, from several of
+// the places. Half as many follow where the four agree and the 24 around it do not: what shows
+// in a few of the places alone is missed by four rays out of sixteen. Which texels get more is
+// decided by their neighbours alone, never by their own ray, so the estimate stays unbiased;
+// the rays of one texel are stratified over it.
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"
@@ -33,9 +35,12 @@ class Visibility {
 
     // Reused from point to point; one per thread.
     struct Scratch {
-        std::vector<std::uint8_t> state;    // by texel, with a border round each face
+        // By texel, with a border round each face: the state, and those that it has together
+        // with its row's two texels on either side, with and without its own.
+        std::vector<std::uint8_t> state, joined, beside;
         std::vector<std::uint8_t> at_edge;  // flags of one row of texels
-        std::vector<std::uint32_t> edges;
+        // Places where the four beside, or only the 24 around, disagree.
+        std::vector<std::uint32_t> near, around;
         std::array<std::vector<float>, 3> directions;
         std::uint64_t rays = 0;  // cast so far
     };
@@ -58,12 +63,22 @@ class Visibility {
                     std::span<float> open,
                     Scratch& scratch) const;
     void find_edges(Scratch& scratch) const;
-    // `extra` rays a texel.
-    void aim_at_edges(const JitterShift& shift, std::size_t extra, Scratch& scratch) const;
-    void refine_edges(RayPacket& packet,
+    // ⌈most⌉ further rays for each of the places.
+    void refine(RayPacket& packet,
+                const JitterShift& shift,
+                std::span<const std::uint32_t> edges,
+                float most,
+                std::span<float> open,
+                Scratch& scratch) const;
+    void aim_at_edges(const JitterShift& shift,
+                      std::span<const std::uint32_t> edges,
                       std::size_t extra,
-                      std::span<float> open,
                       Scratch& scratch) const;
+    void cast_at_edges(RayPacket& packet,
+                       std::span<const std::uint32_t> edges,
+                       std::size_t extra,
+                       std::span<float> open,
+                       Scratch& scratch) const;
 
     const RayCaster& caster_;
     const LightTexels& texels_;

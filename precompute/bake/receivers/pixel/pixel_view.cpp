@@ -70,8 +70,12 @@ void spread_over_hits(Gathered& one) {
     for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
         surface.origins[lane] = offset_origin(hit_of_lane(hits, lane));
     }
-    constexpr float kMostTurns = 4;
-    const auto turns = static_cast<std::uint32_t>(std::ceil(kMostTurns * surface.share));
+    // What a third of the pixel shows is worth as many as all of it: where surfaces meet, one
+    // normal stands for a whole tube.
+    constexpr float kTurnsOfPixel = 32;
+    const std::uint32_t turns =
+        std::min(static_cast<std::uint32_t>(std::ceil(kTurnsOfPixel * surface.share)),
+                 static_cast<std::uint32_t>(kPacketSize));
     if (turns < 2 || !turns_far(surface.point, hits)) {
         return;
     }
@@ -185,13 +189,14 @@ class PixelGatherer {
     std::uint32_t casts_ = 0;
 };
 
-// Casts `count` rays on a jittered grid over the pixel whose upper left corner is (left, top).
+// Casts `count` rays, or as many more as fill the last row, on a jittered grid over the pixel
+// whose upper left corner is (left, top).
 void cast_grid(
     PixelGatherer& gatherer, float left, float top, std::uint32_t count, std::uint64_t key) {
     const auto columns =
         static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<float>(count))));
     const std::uint32_t rows = (count + columns - 1) / columns;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < columns * rows; ++i) {
         const std::uint64_t bits = transport::mix_bits(key + i);
         const float dx = (static_cast<float>(i % columns) + transport::unit_float(bits)) /
                          static_cast<float>(columns);
