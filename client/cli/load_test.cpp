@@ -188,7 +188,7 @@ class Visitor {
                 return;
             }
             nlohmann::json patch = edits == 0 ? options_.patch : nlohmann::json::object();
-            patch.merge_patch(next_edit());
+            patch.update(next_edit());  // a section that is dragged is not the patch's
             if (edits == 0 && options_.budget_ms) {
                 patch["budget"]["milliseconds"] = *options_.budget_ms;
             }

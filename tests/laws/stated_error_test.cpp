@@ -51,10 +51,14 @@ TEST(StatedError, HoldsOverAllSequencesAndMethods) {
     const auto overcast = prefiltered("sky-overcast");
     std::size_t turn = 0;
     for (const std::string& name : sequence_names()) {
+        LightingSequence sequence = load_sequence(name);
+        if (sequence.moves_camera()) {
+            continue;  // the pixels of this scene are those of one camera
+        }
         Tally tally;
         const Findings findings = run_experiment(
             {.scene = {.haar = scene, .sh_transport = {}},
-             .sequence = load_sequence(name),
+             .sequence = std::move(sequence),
              .environments = {.environment = maps[turn++ % maps.size()], .blend = overcast},
              .methods = methods,
              .pictures = {}});

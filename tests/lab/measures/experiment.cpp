@@ -49,14 +49,11 @@ class Reference {
 
 // Throws std::invalid_argument where the camera of an image is asked to move.
 void require_movable(const served::Scene& scene, const LightingSequence& sequence) {
-    for (std::uint32_t i = 0; i < sequence.images; ++i) {
-        if (!scene.view_can_move() &&
-            look_of_image(sequence, scene.beginning(), i) != scene.beginning()) {
-            throw std::invalid_argument(fmt::format(
-                "sequence '{}' moves the camera, and {} is of kind image: expected a transport "
-                "of kind mesh",
-                sequence.name, scene.transport().directory().string()));
-        }
+    if (!scene.view_can_move() && sequence.moves_camera()) {
+        throw std::invalid_argument(
+            fmt::format("sequence '{}' moves the camera, and {} is of kind image: expected a "
+                        "transport of kind mesh",
+                        sequence.name, scene.transport().directory().string()));
     }
 }
 

@@ -139,6 +139,15 @@ std::uint32_t LightingSequence::rests_from() const {
     return std::min(latest, images);
 }
 
+bool LightingSequence::moves_camera() const {
+    for (std::uint32_t image = 0; image < images; ++image) {
+        if (orbit_degrees.at(image, seed) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 light::LightRig rig_of_image(const LightingSequence& sequence,
                              const Environments& environments,
                              std::uint32_t image) {

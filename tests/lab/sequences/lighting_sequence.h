@@ -39,6 +39,8 @@ struct LightingSequence {
 
     // The first image from which on nothing changes any more; `images` if there is none.
     [[nodiscard]] std::uint32_t rests_from() const;
+    // Whether some image is looked at from elsewhere than where views begin.
+    [[nodiscard]] bool moves_camera() const;
 };
 
 // What sequences turn and blend; either may be missing and is black then.
