@@ -118,7 +118,8 @@ Quantisation plan_quantisation(const RowSource& rows, std::uint32_t bits, std::u
     Quantisation plan;
     plan.chroma_residual = measure_chroma(rows);
     plan.colour = plan.chroma_residual < kColourless ? grey_model() : luma_chroma_model();
-    plan.steps = look_at_clusters(rows, seed).steps(bits, plan.colour);
+    plan.steps =
+        look_at_clusters(rows, seed).steps(bits + rows.signals().further_bits, plan.colour);
     return plan;
 }
 

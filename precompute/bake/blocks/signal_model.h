@@ -26,6 +26,9 @@ struct SignalModel {
     // By band: how many times larger the band's quantisation steps are than those of a band
     // of 1.
     std::vector<float> step_growth;
+    // Bits of precision beyond those that the parameters ask for: where people ask for signals
+    // that are so much larger than the natural ones.
+    std::uint32_t further_bits = 0;
 };
 
 }  // namespace relume::bake

@@ -23,7 +23,7 @@ using nlohmann::json;
 struct Options {
     std::string scene = "earrings";
     std::string edit = "pearl,cloth,post.fresnel";
-    std::string environment = "interior";
+    std::string environment = "studio-softboxes";
     std::uint32_t side = 512;
     std::uint32_t threads = 2;
     std::uint32_t images = 120;
@@ -212,7 +212,7 @@ Command add_curves_command(CLI::App& program) {
     app->add_option("--scene", options->scene, "built-in scene")->capture_default_str();
     app->add_option("--edit", options->edit, "its materials, as relume-bake takes them")
         ->capture_default_str();
-    app->add_option("--environment", options->environment, "name or file")
+    app->add_option("--environment", options->environment, "file, or name of one made by formula")
         ->capture_default_str();
     app->add_option("--side", options->side, "of images, in pixels")->capture_default_str();
     app->add_option("--threads", options->threads, "of all that is timed")
