@@ -5,7 +5,7 @@
 #include "protocol/base/files/regular_file.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/cubemap_projection.h"
-#include "protocol/basis/daubechies4.h"
+#include "protocol/basis/curve_projection.h"
 #include "protocol/transport/block_basis.h"
 
 #include <OpenImageIO/imageio.h>
@@ -150,13 +150,10 @@ SignalCoefficients coefficients_as_baked(const transport::Transport& transport) 
     for (std::size_t c = 0; c < coefficients.rgb.size(); ++c) {
         std::vector<float>& plane = coefficients.rgb[c];
         plane.assign(transport.column_count(), 0.0F);
-        plane[basis::CurveBasis::kRest] = 1;
+        basis::project_rest(plane);
         for (std::uint32_t m = 0; m < manifest.curves->curves.size(); ++m) {
-            const std::size_t first = manifest.signal_basis.curves().first_coefficient(m);
-            plane[first] = 1;  // the diffuse colour
-            basis::daubechies4_forward(
-                manifest.curves->curves[m].baked[c],
-                std::span(plane).subspan(first + 1).first<basis::kDaubechies4Size>());
+            basis::project_curve(manifest.signal_basis.curves(), m, 1,
+                                 manifest.curves->curves[m].baked[c], plane);
         }
     }
     return coefficients;

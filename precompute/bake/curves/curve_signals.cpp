@@ -1,7 +1,6 @@
 #include "precompute/bake/curves/curve_signals.h"
 
-#include "protocol/basis/curve_basis.h"
-#include "protocol/basis/daubechies4.h"
+#include "protocol/basis/curve_projection.h"
 
 #include <algorithm>
 #include <array>
@@ -57,12 +56,9 @@ std::array<std::vector<float>, 3> signal_from_curves(std::span<const Curve> curv
     std::array<std::vector<float>, 3> signal;
     for (std::size_t c = 0; c < 3; ++c) {
         signal[c].resize(basis.coefficient_count());
-        signal[c][basis::CurveBasis::kRest] = 1;
+        basis::project_rest(signal[c]);
         for (std::uint32_t m = 0; m < curves.size(); ++m) {
-            float* first = &signal[c][basis.first_coefficient(m)];
-            *first = 1;
-            basis::daubechies4_forward(
-                curves[m].rgb[c], std::span<float, kCurveSamples>(first + 1, kCurveSamples));
+            basis::project_curve(basis, m, 1, curves[m].rgb[c], signal[c]);
         }
     }
     return signal;

@@ -1,7 +1,6 @@
 #include "server/net/rooms/curve_signal.h"
 
-#include "protocol/basis/curve_basis.h"
-#include "protocol/basis/daubechies4.h"
+#include "protocol/basis/curve_projection.h"
 
 #include <Imath/ImathVec.h>
 
@@ -50,18 +49,14 @@ bool CurveSignal::set_state(const wire::RoomState& state,
     const std::size_t count = basis.coefficient_count();
     coefficients_.assign(kChannels * count, 0.0F);
     for (std::size_t channel = 0; channel < kChannels; ++channel) {
-        coefficients_[channel * count + basis::CurveBasis::kRest] = 1;
+        basis::project_rest(std::span(coefficients_).subspan(channel * count, count));
     }
     for (std::uint32_t m = 0; m < curves_.size(); ++m) {
         const ShownMaterial shown = shown_material(curves_[m], shown_);
         for (std::size_t channel = 0; channel < kChannels; ++channel) {
-            const std::span<float> plane =
-                std::span(coefficients_).subspan(channel * count, count);
-            const std::size_t first = basis.first_coefficient(m);
-            plane[first] = shown.diffuse[static_cast<int>(channel)];
-            basis::daubechies4_forward(
-                shown.curve[channel],
-                plane.subspan(first + 1).first<basis::kDaubechies4Size>());
+            basis::project_curve(basis, m, shown.diffuse[static_cast<int>(channel)],
+                                 shown.curve[channel],
+                                 std::span(coefficients_).subspan(channel * count, count));
         }
     }
     return true;

@@ -1,7 +1,6 @@
 #include "tests/lab/curves/curve_room.h"
 
-#include "protocol/basis/curve_basis.h"
-#include "protocol/basis/daubechies4.h"
+#include "protocol/basis/curve_projection.h"
 
 #include <cmath>
 #include <limits>
@@ -22,13 +21,9 @@ CurveRoom::CurveRoom(std::shared_ptr<const served::Scene> scene,
     signal_.assign(3 * count, 0.0F);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::span<float> plane = std::span(signal_).subspan(channel * count, count);
-        plane[basis::CurveBasis::kRest] = 1;
+        basis::project_rest(plane);
         for (std::uint32_t m = 0; m < basis.curve_count(); ++m) {
-            const std::size_t first = basis.first_coefficient(m);
-            plane[first] = 1;
-            basis::daubechies4_forward(
-                scene_->curves()[m].baked[channel],
-                plane.subspan(first + 1).first<basis::kDaubechies4Size>());
+            basis::project_curve(basis, m, 1, scene_->curves()[m].baked[channel], plane);
         }
     }
     session_.set_target(signal_);
@@ -38,11 +33,8 @@ void CurveRoom::set_curve(const curve::Curve& curve) {
     const basis::CurveBasis& basis = scene_->transport().manifest().signal_basis.curves();
     const std::size_t count = basis.coefficient_count();
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        basis::daubechies4_forward(
-            curve.rgb[channel],
-            std::span(signal_)
-                .subspan(channel * count + basis.first_coefficient(material_) + 1)
-                .first<basis::kDaubechies4Size>());
+        basis::project_curve(basis, material_, 1, curve.rgb[channel],
+                             std::span(signal_).subspan(channel * count, count));
     }
     session_.set_target(signal_);
 }
