@@ -3,6 +3,7 @@
 #include "client/cli/client_error.h"
 #include "client/cli/option_text.h"
 #include "protocol/base/program/usage.h"
+#include "protocol/base/text/split.h"
 #include "protocol/base/text/strict_json.h"
 #include "protocol/wire/room_patch.h"
 
@@ -19,7 +20,7 @@ using nlohmann::json;
 
 void put_light(json& patch, std::string_view text) {
     constexpr std::string_view kForm = "ID:X,Y,Z:RADIUS_DEGREES:R,G,B";
-    const std::vector<std::string_view> parts = split(text, ':');
+    const std::vector<std::string_view> parts = text::split(text, ':');
     if (parts.size() != 4) {
         throw program::UsageError(
             fmt::format("--light: found \"{}\", expected {}", text, kForm));
@@ -54,7 +55,7 @@ void put_camera(json& patch, const EditOptions& options) {
 
 void put_size(json& patch, std::string_view text) {
     constexpr std::string_view kForm = "WIDTHxHEIGHT";
-    const std::vector<std::string_view> sides = split(text, 'x');
+    const std::vector<std::string_view> sides = text::split(text, 'x');
     std::vector<std::uint32_t> pixels;
     for (const std::string_view side : sides) {
         std::uint32_t number = 0;

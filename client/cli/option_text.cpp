@@ -4,6 +4,7 @@
 #include "protocol/base/files/error.h"
 #include "protocol/base/files/regular_file.h"
 #include "protocol/base/program/usage.h"
+#include "protocol/base/text/split.h"
 #include "protocol/base/text/strict_json.h"
 
 #include <fmt/format.h>
@@ -12,24 +13,12 @@
 
 namespace relume::cli {
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) {
-            return parts;
-        }
-        text.remove_prefix(end + 1);
-    }
-}
-
 std::vector<double> numbers_from_option(std::string_view text,
                                         std::size_t count,
                                         std::string_view option,
                                         std::string_view form) {
     std::vector<double> numbers;
-    for (const std::string_view part : split(text, ',')) {
+    for (const std::string_view part : text::split(text, ',')) {
         double number = 0;
         const auto [end, error] =
             std::from_chars(part.data(), part.data() + part.size(), number);

@@ -13,8 +13,6 @@ namespace relume::cli {
 // What a server takes in one message by default.
 inline constexpr std::size_t kMaxOptionJsonBytes = std::size_t{64} << 10;
 
-[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
-
 // `count` numbers with commas between them. Throws program::UsageError that says which `form`
 // was expected.
 [[nodiscard]] std::vector<double> numbers_from_option(std::string_view text,

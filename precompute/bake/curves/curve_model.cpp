@@ -3,6 +3,7 @@
 #include "precompute/factors/curve_factors.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/near_names.h"
+#include "protocol/base/text/split.h"
 
 #include <fmt/format.h>
 
@@ -16,18 +17,6 @@
 namespace relume::bake {
 namespace {
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) {
-            return parts;
-        }
-        text.remove_prefix(end + 1);
-    }
-}
-
 std::optional<double> number_from(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -39,7 +28,7 @@ std::optional<double> number_from(std::string_view text) {
 
 // One number, or three with slashes.
 Imath::V3d value_from(const std::string& option, std::string_view text) {
-    const std::vector<std::string_view> parts = split(text, '/');
+    const std::vector<std::string_view> parts = text::split(text, '/');
     std::vector<double> numbers;
     for (const std::string_view part : parts) {
         if (const auto number = number_from(part)) {
@@ -106,7 +95,7 @@ curve::CurveBrdf curve_brdf_from_text(const std::string& option, const std::stri
     curve::ParameterValues values = curve::usual_values(parameters);
     if (colon != std::string::npos) {
         for (const std::string_view part :
-             split(std::string_view(text).substr(colon + 1), ',')) {
+             text::split(std::string_view(text).substr(colon + 1), ',')) {
             const std::size_t equals = part.find('=');
             if (equals == std::string_view::npos) {
                 throw program::UsageError(
