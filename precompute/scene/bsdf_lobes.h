@@ -2,6 +2,8 @@
 // batch code so that both give the same bits. Shading frame, z > 0 assumed throughout.
 #pragma once
 
+#include "protocol/brdf/diffuse_lobe.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,30 +13,8 @@
 namespace relume::scene::lobes {
 
 inline constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-inline constexpr float kDielectricF0 = 0.04F;
-
-inline float schlick_weight(float cosine) {
-    const float m = 1.0F - cosine;
-    const float m2 = m * m;
-    return m2 * m2 * m;
-}
-
-// The dielectric over the diffuse layer, by Schlick: f0 straight on, f90 at grazing angles.
-struct Coat {
-    float f0 = kDielectricF0;
-    float f90 = 1;
-
-    // What it lets through at this angle.
-    [[nodiscard]] float transmission(float cosine) const {
-        return (1.0F - f0) - (f90 - f0) * schlick_weight(cosine);
-    }
-    // Diffuse layer below the coat, per unit of colour, with transmission(θo) folded in by the
-    // caller [Shirley97]. The cosine-weighted mean of Schlick's term is f0 + (f90 − f0)/21.
-    [[nodiscard]] float diffuse_share() const {
-        const float mean_transmission = 1.0F - f0 - (f90 - f0) / 21.0F;
-        return mean_transmission > 1e-4F ? kInversePi / mean_transmission : 0.0F;
-    }
-};
+using brdf::Coat;
+using brdf::schlick_weight;
 
 // GGX distribution from the half vector (x, y, z). 1 − z² is taken as x² + y²: at roughness
 // 0.05 the difference would have lost all its bits.

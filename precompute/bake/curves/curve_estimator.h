@@ -5,28 +5,19 @@
 #include "precompute/bake/curves/edited_material.h"
 #include "precompute/bake/curves/frozen_radiance.h"
 #include "precompute/bake/receivers/receiver.h"
-#include "protocol/curve/curve.h"
+#include "protocol/sampling/curve_sampler.h"
 
 #include <Imath/ImathVec.h>
 
-#include <array>
 #include <cstdint>
 
 namespace relume::bake {
 
-// Radiance to the viewer is diffuse + Σ_k sample_k · c_k + what nobody edits.
-struct CurveShares {
-    Imath::V3f diffuse{0, 0, 0};  // of the diffuse colour as it is
-    std::array<std::array<float, curve::kCurveSamples>, 3> samples{};  // red, green and blue
-};
+using sampling::CurveShares;
 
 // Estimates ∫ L ρ_q hat_k cos dω for all k, ρ_q being the BRDF without the edited curve, and ∫
-// L f_diffuse cos dω, from the same rays. Their directions are drawn in three ways, which are
-// joined by the balance heuristic [Veach97]: evenly over the samples of a curve
-// (angle_sampling), by the power of the light, and by the cosine. So every sample gets its
-// share whatever the light is, a small bright light is found whatever the curve is, and the
-// estimate is unbiased for every curve. L is the light where a ray leaves the scene, else
-// FrozenRadiance.
+// L f_diffuse cos dω, from the same rays (sampling/curve_sampler.h). L is the light where a ray
+// leaves the scene, else FrozenRadiance.
 //
 // Thread-safe. Depends on nothing but its arguments.
 class CurveEstimator {

@@ -52,7 +52,7 @@ class CurveRows final : public RowSource {
     const std::vector<EditedMaterial>& materials_;
     std::vector<std::optional<std::uint32_t>> curve_of_material_;  // of the scene's
     light::Background background_;
-    TexelLight texel_light_;
+    sampling::TexelLight texel_light_;
     FrozenRadiance radiance_;
     CurveEstimator estimator_;
     UneditedReceivers unedited_;

@@ -1,7 +1,7 @@
 #include "precompute/bake/curves/frozen_radiance.h"
 
-#include "precompute/bake/rays/sobol.h"
 #include "precompute/scene/surface_point.h"
+#include "protocol/sampling/sobol.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
@@ -37,10 +37,10 @@ Imath::V3f FrozenRadiance::incoming(const Imath::V3f& origin,
             caster_.scene(), hit->mesh, hit->triangle, hit->barycentric, along);
         const Imath::V3f start = offset_origin(point);
         const std::uint64_t dimension = transport::mix_bits(numbers.key) + 4 * event;
-        const Imath::V2f more = sobol_point(numbers.index, dimension + 1);
+        const Imath::V2f more = sampling::sobol_point(numbers.index, dimension + 1);
 
-        const TexelLight::Sample bright =
-            light_.sample(more.x, sobol_point(numbers.index, dimension));
+        const sampling::TexelLight::Sample bright =
+            light_.sample(more.x, sampling::sobol_point(numbers.index, dimension));
         if (bright.pdf > 0) {
             const Imath::V3f reflected = point.reflect(bright.direction);
             if (largest(reflected) > 0) {
@@ -53,7 +53,7 @@ Imath::V3f FrozenRadiance::incoming(const Imath::V3f& origin,
         }
 
         const scene::SurfacePoint::Sample sample =
-            point.sample(more.y, sobol_point(numbers.index, dimension + 2));
+            point.sample(more.y, sampling::sobol_point(numbers.index, dimension + 2));
         if (sample.pdf <= 0 || largest(sample.weight) <= 0) {
             break;
         }
@@ -67,7 +67,7 @@ Imath::V3f FrozenRadiance::incoming(const Imath::V3f& origin,
         }
         if (event >= kFirstRoulette) {
             const float survive = std::min(largest(weight), kMostSurvive);
-            if (sobol_point(numbers.index, dimension + 3).x >= survive) {
+            if (sampling::sobol_point(numbers.index, dimension + 3).x >= survive) {
                 break;
             }
             weight /= survive;

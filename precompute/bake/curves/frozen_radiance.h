@@ -3,8 +3,8 @@
 // scene's file.
 #pragma once
 
-#include "precompute/bake/curves/texel_light.h"
 #include "precompute/bake/rays/ray_caster.h"
+#include "protocol/sampling/texel_light.h"
 
 #include <Imath/ImathVec.h>
 
@@ -23,10 +23,12 @@ class FrozenRadiance {
   public:
     // `bounces`: scattering events after the ray's start; 0: what it meets is black. Keeps
     // references to both.
-    FrozenRadiance(const RayCaster& caster, const TexelLight& light, std::uint32_t bounces)
+    FrozenRadiance(const RayCaster& caster,
+                   const sampling::TexelLight& light,
+                   std::uint32_t bounces)
         : caster_(caster), light_(light), bounces_(bounces) {}
 
-    [[nodiscard]] const TexelLight& light() const { return light_; }
+    [[nodiscard]] const sampling::TexelLight& light() const { return light_; }
 
     // An unbiased estimate. At every surface the path looks for the light twice, where it is
     // bright and where the surface reflects to, by multiple importance sampling with the
@@ -39,7 +41,7 @@ class FrozenRadiance {
 
   private:
     const RayCaster& caster_;
-    const TexelLight& light_;
+    const sampling::TexelLight& light_;
     std::uint32_t bounces_;
 };
 

@@ -1,7 +1,7 @@
 #include "precompute/bake/rows/light_texels.h"
 
-#include "precompute/bake/rays/sobol.h"
 #include "protocol/basis/cpu_clones.h"
+#include "protocol/sampling/sobol.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
@@ -42,8 +42,9 @@ LightTexels::LightTexels(std::uint32_t face_resolution, std::uint64_t seed)
     const std::uint32_t squares_per_side = face_resolution / kPacketSide;
     for (std::uint32_t face = 0; face < basis::kFaceCount; ++face) {
         for (std::uint32_t i = 0; i < squares_per_side * squares_per_side; ++i) {
-            add_square(static_cast<basis::Face>(face), morton_even(i >> 1U) * kPacketSide,
-                       morton_even(i) * kPacketSide);
+            add_square(static_cast<basis::Face>(face),
+                       sampling::morton_even(i >> 1U) * kPacketSide,
+                       sampling::morton_even(i) * kPacketSide);
         }
     }
     for (std::size_t place = 0; place < count; ++place) {

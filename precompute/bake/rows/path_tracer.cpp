@@ -1,7 +1,7 @@
 #include "precompute/bake/rows/path_tracer.h"
 
-#include "precompute/bake/rays/sobol.h"
 #include "protocol/basis/cubemap.h"
+#include "protocol/sampling/sobol.h"
 
 #include <algorithm>
 #include <bit>
@@ -35,8 +35,8 @@ std::size_t texel_index_from_key(std::uint32_t face_resolution, std::uint32_t ke
     const std::uint32_t morton = key % face_size;
     return basis::index_from_texel(face_resolution,
                                    {.face = static_cast<basis::Face>(key / face_size),
-                                    .row = morton_even(morton >> 1U),
-                                    .column = morton_even(morton)});
+                                    .row = sampling::morton_even(morton >> 1U),
+                                    .column = sampling::morton_even(morton)});
 }
 
 Imath::V3f reflectance(const scene::Bsdf& bsdf) {
@@ -92,7 +92,8 @@ void PathTracer::trace_path(const ReceiverSurface& surface,
             }
         }
         const scene::SurfacePoint::Sample sample =
-            point.sample(sobol_point(index, dimension + 1).x, sobol_point(index, dimension));
+            point.sample(sampling::sobol_point(index, dimension + 1).x,
+                         sampling::sobol_point(index, dimension));
         if (sample.pdf <= 0 || largest(sample.weight) <= 0) {
             if (!(event == 0 && point.bsdf.is_diffuse() && sample.pdf > 0 &&
                   point.is_above_surface(sample.wi))) {
@@ -122,7 +123,7 @@ void PathTracer::trace_path(const ReceiverSurface& surface,
         }
         if (event >= kFirstRoulette) {
             const float survive = std::min(largest(weight), kMostSurvive);
-            if (sobol_point(index, dimension + 1).y >= survive) {
+            if (sampling::sobol_point(index, dimension + 1).y >= survive) {
                 return;
             }
             weight /= survive;
@@ -145,7 +146,8 @@ void PathTracer::look_at_sky(const scene::SurfacePoint& point,
     for (std::uint32_t i = 0; i < looks; ++i) {
         // An aligned run of a sequence is stratified by itself.
         const std::uint32_t at = index * looks + i;
-        samples[i] = point.sample(sobol_point(at, dimension + 1).x, sobol_point(at, dimension));
+        samples[i] = point.sample(sampling::sobol_point(at, dimension + 1).x,
+                                  sampling::sobol_point(at, dimension));
         packet.x()[i] = samples[i].wi.x;
         packet.y()[i] = samples[i].wi.y;
         packet.z()[i] = samples[i].wi.z;
@@ -171,7 +173,7 @@ void PathTracer::look_at_sky(const scene::SurfacePoint& point,
 std::uint32_t PathTracer::key_from_direction(const Imath::V3f& direction) const {
     const basis::Texel texel = basis::texel_from_direction(face_resolution_, direction);
     return texel_key(face_resolution_, static_cast<std::uint32_t>(texel.face),
-                     morton_index(texel.column, texel.row));
+                     sampling::morton_index(texel.column, texel.row));
 }
 
 std::uint32_t PathTracer::looks(std::uint32_t event, std::uint32_t samples) {

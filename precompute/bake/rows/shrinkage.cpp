@@ -1,6 +1,6 @@
 #include "precompute/bake/rows/shrinkage.h"
 
-#include "precompute/bake/rays/sobol.h"
+#include "protocol/sampling/sobol.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +56,8 @@ class LevelWriter {
     void write(std::uint32_t key, const Square& square, float kept) {
         const std::uint32_t morton = key & ((1U << (2 * level_)) - 1);
         const std::uint32_t face = key >> (2 * level_);
-        const std::uint32_t column = morton_even(morton);
-        const std::uint32_t row = morton_even(morton >> 1U);
+        const std::uint32_t column = sampling::morton_even(morton);
+        const std::uint32_t row = sampling::morton_even(morton >> 1U);
         const std::uint32_t side = 1U << level_;
         const auto& [p, q, r, s] = square.quarter;
         const float scale = amplitude_ * kept;

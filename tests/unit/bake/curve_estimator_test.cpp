@@ -1,8 +1,6 @@
 // The estimator of curves against closed forms and quadrature.
 #include "precompute/bake/curves/curve_estimator.h"
 
-#include "precompute/bake/curves/angle_sampling.h"
-#include "precompute/bake/rays/sobol.h"
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 #include "precompute/scene/builtin.h"
 #include "protocol/basis/cubemap.h"
@@ -20,73 +18,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kFarOff = 5;  // standard errors
 
-light::LightCubemap uneven_light(std::uint32_t n) {
-    light::LightCubemap light(n);
-    const auto planes = light.planes();
-    for (std::size_t texel = 0; texel < light.plane_size(); ++texel) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            planes[c][texel] = texel % 7 == 0 ? 30.0F : static_cast<float>(texel % 5) * 0.1F;
-        }
-    }
-    return light;
-}
-
 light::LightCubemap constant_light() {
     light::LightCubemap light(basis::kMinFaceResolution);
     light.radiance.assign(light.radiance.size(), 1.0F);
     return light;
-}
-
-TEST(TexelLight, SamplesHaveTheDensityThatIsStatedAndFindAllEnergy) {
-    const TexelLight light(uneven_light(8));
-    const Imath::V3d energy = light::total_energy(light.cubemap());
-    test::SampleMoments<double> found(0.0);
-    for (std::uint32_t i = 0; i < 20'000; ++i) {
-        const TexelLight::Sample sample =
-            light.sample(sobol_point(i, 11).x, sobol_point(i, 12));
-        ASSERT_GT(sample.pdf, 0);
-        ASSERT_NEAR(sample.direction.length(), 1, 1e-5);
-        ASSERT_NEAR(light.pdf(sample.direction), sample.pdf, 1e-3F * sample.pdf);
-        found.add(static_cast<double>(light.radiance(sample.direction).x / sample.pdf));
-    }
-    // Power is sampled exactly; what is left is the place within a texel.
-    EXPECT_NEAR(found.mean(), energy.x, 0.01 * energy.x);
-    EXPECT_EQ(TexelLight(light::LightCubemap(4)).sample(0.5F, {0.5F, 0.5F}).pdf, 0);
-}
-
-TEST(AngleSampling, DensityIsThatOfItsSamples) {
-    for (const SampledAngle angle : {SampledAngle::half, SampledAngle::reflection}) {
-        for (const float cosine : {1.0F, 0.7F, 0.1F}) {
-            const Imath::V3f wo(std::sqrt(1 - cosine * cosine), 0, cosine);
-            // ∫ g cos dω over directions that are reached, both ways.
-            const auto g = [](const Imath::V3f& wi) {
-                return static_cast<double>(wi.z * (1 + 0.5F * wi.x));
-            };
-            test::SampleMoments<double> by_angle(0.0);
-            double by_cosine = 0;
-            constexpr std::uint32_t kCount = 1U << 16U;
-            for (std::uint32_t i = 0; i < kCount; ++i) {
-                const AngleSample sample = sample_angle(angle, wo, sobol_point(i, 5));
-                if (sample.pdf > 0) {
-                    ASSERT_NEAR(angle_pdf(angle, sample.wi, wo), sample.pdf,
-                                1e-3F * sample.pdf);
-                }
-                by_angle.add(sample.pdf > 0 ? g(sample.wi) / static_cast<double>(sample.pdf)
-                                            : 0.0);
-                const Imath::V2f u = sobol_point(i, 6);
-                const Imath::V3f wi(
-                    std::sqrt(u.x) * std::cos(2 * static_cast<float>(kPi) * u.y),
-                    std::sqrt(u.x) * std::sin(2 * static_cast<float>(kPi) * u.y),
-                    std::sqrt(1 - u.x));
-                if (angle_pdf(angle, wi, wo) > 0) {
-                    by_cosine += kPi * g(wi) / static_cast<double>(wi.z) / kCount;
-                }
-            }
-            EXPECT_NEAR(by_angle.mean(), by_cosine,
-                        kFarOff * std::sqrt(by_angle.variance_of_mean()) + 1e-3)
-                << cosine;
-        }
-    }
 }
 
 // A plane, seen aslant, of a material whose curves are edited, under a light that is 1
@@ -100,7 +35,7 @@ class CurveEstimatorTest : public testing::Test {
         const PixelReceivers pixels(caster, parameters_);
         const Receiver receiver = pixels.look(5 * 8 + 3);
         wo = receiver.surfaces.front().point.wo;
-        const TexelLight light(constant_light());
+        const sampling::TexelLight light(constant_light());
         const FrozenRadiance radiance(caster, light, 0);
         test::SampleMoments<double> moments(0.0);
         const curve::Curve& curve = material.brdf.curves()[material.curve].curve;

@@ -1,6 +1,6 @@
 #include "precompute/bake/rows/reflection.h"
 
-#include "precompute/bake/rays/sobol.h"
+#include "protocol/sampling/sobol.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,8 @@ Imath::V3d sampled_albedo(const scene::SurfacePoint& point) {
     constexpr std::uint32_t kSamples = 1U << 17U;
     Imath::V3d total{0, 0, 0};
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        total += Imath::V3d(point.sample(sobol_point(i, 8).x, sobol_point(i, 9)).weight);
+        total += Imath::V3d(
+            point.sample(sampling::sobol_point(i, 8).x, sampling::sobol_point(i, 9)).weight);
     }
     return total / kSamples;
 }

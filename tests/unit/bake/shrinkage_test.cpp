@@ -1,10 +1,10 @@
 #include "precompute/bake/rows/shrinkage.h"
 
 #include "precompute/bake/base/parameters.h"
-#include "precompute/bake/rays/sobol.h"
 #include "precompute/bake/rows/path_tracer.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/basis/haar.h"
+#include "protocol/sampling/sobol.h"
 #include "protocol/transport/hash.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ float random_unit(std::uint64_t i) {
 }
 
 std::uint32_t key_of(std::uint32_t face, std::uint32_t row, std::uint32_t column) {
-    return texel_key(kN, face, morton_index(column, row));
+    return texel_key(kN, face, sampling::morton_index(column, row));
 }
 
 struct Contribution {

@@ -1,6 +1,6 @@
 #include "precompute/bake/receivers/pixel/pixel_receivers.h"
 
-#include "precompute/bake/rays/sobol.h"
+#include "protocol/sampling/sobol.h"
 #include "protocol/transport/hash.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace relume::bake {
 using transport::kTileSide;
 
 SequencePlace sequence_place_from_pixel(std::uint32_t x, std::uint32_t y) {
-    return {.run = morton_index(x, y),
+    return {.run = sampling::morton_index(x, y),
             .along = 0.7548776662466927 * x + 0.5698402909980532 * y,
             .across = 0.5698402909980532 * x + 0.2451223337533073 * y};
 }

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace relume::bake {
+namespace relume::sampling {
 
 enum class SampledAngle : std::uint8_t { half, reflection };
 
@@ -23,4 +23,4 @@ struct AngleSample {
 // Density with which sample_angle returns wi.
 [[nodiscard]] float angle_pdf(SampledAngle angle, const Imath::V3f& wi, const Imath::V3f& wo);
 
-}  // namespace relume::bake
+}  // namespace relume::sampling

@@ -1,10 +1,10 @@
-#include "precompute/bake/rays/sobol.h"
+#include "protocol/sampling/sobol.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace relume::bake {
+namespace relume::sampling {
 namespace {
 
 TEST(Sobol, EveryAlignedRunOfSixteenFillsAllElementaryIntervals) {
@@ -47,4 +47,4 @@ TEST(Sobol, MortonIndicesComeApartAgain) {
 }
 
 }  // namespace
-}  // namespace relume::bake
+}  // namespace relume::sampling

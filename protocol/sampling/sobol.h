@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace relume::bake {
+namespace relume::sampling {
 
 [[nodiscard]] constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x << 16U) | (x >> 16U);
@@ -66,4 +66,4 @@ namespace relume::bake {
     return (v | (v >> 8U)) & 0x0000ffffU;
 }
 
-}  // namespace relume::bake
+}  // namespace relume::sampling

@@ -1,12 +1,12 @@
-#include "precompute/bake/curves/angle_sampling.h"
+#include "protocol/sampling/angle_sampling.h"
 
-#include "precompute/scene/surface_point.h"
+#include "protocol/brdf/local_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace relume::bake {
+namespace relume::sampling {
 namespace {
 
 constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
@@ -43,7 +43,7 @@ AngleSample sample_angle(SampledAngle angle, const Imath::V3f& wo, const Imath::
         }
         sample.wi = (around * (2 * cosine) - wo).normalized();
     } else {
-        sample.wi = scene::Frame::from_normal(mirrored(wo)).to_world(around).normalized();
+        sample.wi = brdf::local_frame(mirrored(wo)).world_from_local(around).normalized();
     }
     sample.pdf = sample.wi.z > 0 ? angle_pdf(angle, sample.wi, wo) : 0.0F;
     return sample;
@@ -60,4 +60,4 @@ float angle_pdf(SampledAngle angle, const Imath::V3f& wi, const Imath::V3f& wo) 
                       : 0.0F;
 }
 
-}  // namespace relume::bake
+}  // namespace relume::sampling

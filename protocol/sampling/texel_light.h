@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace relume::bake {
+namespace relume::sampling {
 
 // Immutable and thread-safe.
 class TexelLight {
@@ -38,4 +38,4 @@ class TexelLight {
     std::vector<float> probability_;
 };
 
-}  // namespace relume::bake
+}  // namespace relume::sampling

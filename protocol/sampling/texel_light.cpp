@@ -1,4 +1,4 @@
-#include "precompute/bake/curves/texel_light.h"
+#include "protocol/sampling/texel_light.h"
 
 #include "protocol/basis/cubemap.h"
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace relume::bake {
+namespace relume::sampling {
 
 TexelLight::TexelLight(light::LightCubemap cubemap) : cubemap_(std::move(cubemap)) {
     const std::uint32_t n = cubemap_.face_resolution;
@@ -69,4 +69,4 @@ float TexelLight::pdf_in_texel(std::size_t texel, const Imath::V3f& direction) c
            (4 * inverse_distance * inverse_distance * inverse_distance);
 }
 
-}  // namespace relume::bake
+}  // namespace relume::sampling
