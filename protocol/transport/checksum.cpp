@@ -4,11 +4,26 @@
 #include <xxhash.h>
 
 #include <charconv>
+#include <memory>
+#include <new>
 
 namespace relume::transport {
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::uint64_t checksum(std::span<const std::span<const std::byte>> parts) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         &XXH3_freeState);
+    if (state == nullptr) {
+        throw std::bad_alloc();
+    }
+    XXH3_64bits_reset(state.get());
+    for (const std::span<const std::byte> part : parts) {
+        XXH3_64bits_update(state.get(), part.data(), part.size());
+    }
+    return XXH3_64bits_digest(state.get());
 }
 
 std::string text_from_checksum(std::uint64_t value) {

@@ -189,6 +189,12 @@ std::string text_from_manifest(const Manifest& manifest) {
         object["curves"] = json_from(manifest.curves->curves);
         object["light"] = manifest.curves->light;
     }
+    if (manifest.materials) {
+        object["materials"] = json_from(*manifest.materials);
+    }
+    if (manifest.visibility) {
+        object["visibility"] = json_from(*manifest.visibility);
+    }
     if (manifest.sampling_error) {
         object["sampling_error"] = json_from(manifest.sampling_error);
     }
@@ -238,6 +244,12 @@ Manifest manifest_from_text(std::string_view json_text, std::string_view file) {
         manifest.mesh->mesh = file_record(files.object("mesh"));
         manifest.mesh->brdfs = file_record(files.object("brdfs"));
         manifest.mesh->textures = file_record(files.object("textures"));
+    }
+    if (manifest.kind == Kind::image && parsed.contains("materials")) {
+        manifest.materials = materials_section(top.object("materials"));
+    }
+    if (manifest.kind == Kind::mesh && parsed.contains("visibility")) {
+        manifest.visibility = visibility_record(top.object("visibility"));
     }
     manifest.shards = shard_records(top, manifest.block_count(), file);
     manifest.camera = camera_record(top.object("camera"));

@@ -9,6 +9,7 @@
 #include "protocol/transport/curves_section.h"
 #include "protocol/transport/file_record.h"
 #include "protocol/transport/format.h"
+#include "protocol/transport/materials_section.h"
 #include "protocol/transport/mesh_section.h"
 #include "protocol/transport/receiver_layout.h"
 #include "protocol/transport/sketch.h"
@@ -83,6 +84,8 @@ struct Manifest {
     CameraRecord camera;
     std::optional<MeshSection> mesh;              // of kind `mesh`
     std::optional<CurvesSection> curves;          // of kind `curves`
+    std::optional<MaterialsSection> materials;    // of kind `image` whose materials are edited
+    std::optional<VisibilityRecord> visibility;   // of kind `mesh` whose vertices' is known
     std::optional<SamplingError> sampling_error;  // where the bake has estimated it
     nlohmann::json bake = nlohmann::json::object();
     nlohmann::json measured = nlohmann::json::object();

@@ -104,6 +104,7 @@ Transport::Transport(const std::filesystem::path& directory)
     : directory_(directory), manifest_(read_manifest(directory / "manifest.json")) {
     open_tables();
     open_surface();
+    open_materials();
     open_shards();
     check_columns();
 }
@@ -159,6 +160,61 @@ void Transport::open_surface() {
         surface_from_files(manifest_, {.mesh = file(manifest_.mesh->mesh, mesh),
                                        .brdfs = file(manifest_.mesh->brdfs, brdfs),
                                        .textures = file(manifest_.mesh->textures, textures)});
+}
+
+void Transport::open_visibility(const VisibilityRecord& record) {
+    const std::string name = (directory_ / record.file.file).string();
+    tables_.push_back(open_table(directory_, record.file));
+    visibility_.emplace(tables_.back().bytes(), name);
+    if (visibility_->face_resolution() != record.face_resolution) {
+        throw TransportError(
+            fmt::format("{}: face resolution: found {}, the manifest expects {}", name,
+                        visibility_->face_resolution(), record.face_resolution));
+    }
+}
+
+void Transport::open_materials() {
+    if (manifest_.materials) {
+        const MaterialsSection& materials = *manifest_.materials;
+        open_visibility(materials.visibility);
+        const FileBytes points = open_table(directory_, materials.points);
+        seen_points_.emplace(points.bytes(), (directory_ / materials.points.file).string(),
+                             materials.editable.size());
+        check_point_counts();
+    } else if (manifest_.visibility) {
+        open_visibility(*manifest_.visibility);
+        check_point_counts();
+    }
+}
+
+// Points are those of points.bin, or else the vertices of clusters.
+void Transport::check_point_counts() const {
+    const FileRecord& file =
+        manifest_.materials ? manifest_.materials->visibility.file : manifest_.visibility->file;
+    const auto require = [&](const std::string& what, std::uint64_t found,
+                             std::uint64_t expected) {
+        if (found != expected) {
+            throw TransportError(fmt::format("{}: {}: found {}, expected {}",
+                                             (directory_ / file.file).string(), what, found,
+                                             expected));
+        }
+    };
+    const std::uint32_t blocks =
+        manifest_.mesh
+            ? static_cast<std::uint32_t>(manifest_.layout.clusters().clusters().size())
+            : manifest_.block_count();
+    require("blocks", visibility_->block_count(), blocks);
+    if (seen_points_) {
+        require("blocks beside those of its points", visibility_->block_count(),
+                seen_points_->block_count());
+    }
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+        const std::uint32_t expected =
+            seen_points_ ? seen_points_->point_count(block)
+                         : manifest_.layout.clusters().clusters()[block].vertices;
+        require(fmt::format("points of block {}", block), visibility_->point_count(block),
+                expected);
+    }
 }
 
 void Transport::open_shards() {

@@ -3,9 +3,11 @@
 
 #include "protocol/transport/file_bytes.h"
 #include "protocol/transport/manifest.h"
+#include "protocol/transport/seen_points.h"
 #include "protocol/transport/shard_reader.h"
 #include "protocol/transport/sketch.h"
 #include "protocol/transport/surface.h"
+#include "protocol/transport/visibility_field.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -54,6 +56,14 @@ class Transport {
     // Of kind `mesh`; none of other kinds.
     [[nodiscard]] const std::optional<Surface>& surface() const { return surface_; }
 
+    // Of kind `image` with materials that people edit, points and what they see: blocks are
+    // those of the transport, and a block has as many points in both. Of kind `mesh` perhaps a
+    // visibility alone: blocks are clusters, and points their vertices. Else none.
+    [[nodiscard]] const std::optional<VisibilityField>& visibility() const {
+        return visibility_;
+    }
+    [[nodiscard]] const std::optional<SeenPoints>& seen_points() const { return seen_points_; }
+
     // Two sketches of independent rows: by one a server chooses what to do, by the other it
     // states its error. An estimate that has been minimised over is biased.
     [[nodiscard]] const Sketch& stating_sketch() const { return stating_sketch_; }
@@ -63,6 +73,9 @@ class Transport {
     explicit Transport(const std::filesystem::path& directory);
     void open_tables();
     void open_surface();
+    void open_visibility(const VisibilityRecord& record);
+    void open_materials();
+    void check_point_counts() const;
     void open_shards();
     void check_columns() const;
 
@@ -70,6 +83,8 @@ class Transport {
     Manifest manifest_;
     std::vector<FileBytes> tables_;
     std::optional<Surface> surface_;
+    std::optional<VisibilityField> visibility_;
+    std::optional<SeenPoints> seen_points_;
     std::vector<ShardReader> shards_;
     std::span<const float> steps_;
     std::span<const float> energies_;

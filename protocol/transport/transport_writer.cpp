@@ -110,6 +110,21 @@ void TransportWriter::write_surface(const Surface& surface) {
         write_table(directory_, "textures.bin", {bytes_from_textures(surface.textures)});
 }
 
+void TransportWriter::write_materials(const VisibilityFieldBuilder& visibility,
+                                      const SeenPointsBuilder& points,
+                                      std::vector<EditableRecord> editable) {
+    manifest_.materials =
+        MaterialsSection{.visibility = {.face_resolution = visibility.face_resolution(),
+                                        .file = visibility.write(directory_)},
+                         .points = points.write(directory_),
+                         .editable = std::move(editable)};
+}
+
+void TransportWriter::write_visibility(const VisibilityFieldBuilder& visibility) {
+    manifest_.visibility = VisibilityRecord{.face_resolution = visibility.face_resolution(),
+                                            .file = visibility.write(directory_)};
+}
+
 void TransportWriter::finish(const BakedTables& tables, const nlohmann::json& measured) {
     const std::size_t receivers = std::size_t{manifest_.block_count()} * kBlockSize;
     require_size("steps", tables.steps.size(),

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "protocol/transport/manifest.h"
+#include "protocol/transport/seen_points.h"
 #include "protocol/transport/shard_reader.h"
 #include "protocol/transport/shard_writer.h"
 #include "protocol/transport/surface.h"
+#include "protocol/transport/visibility_field.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -60,6 +62,15 @@ class TransportWriter {
 
     // Of kind `mesh`, before finish(): writes mesh.bin, brdfs.bin and textures.bin.
     void write_surface(const Surface& surface);
+
+    // Of kind `image`, before finish(): writes visibility.bin and points.bin. The fields have
+    // the transport's blocks, each with as many points in both; 1 … 16 materials.
+    void write_materials(const VisibilityFieldBuilder& visibility,
+                         const SeenPointsBuilder& points,
+                         std::vector<EditableRecord> editable);
+
+    // Of kind `mesh`, before finish(): writes visibility.bin, a block for each cluster.
+    void write_visibility(const VisibilityFieldBuilder& visibility);
 
     // Reads all shards back, sums column energies, bytes and the sketches from what is
     // *stored*, writes the tables and, last of all, the manifest with `measured` and cell

@@ -61,8 +61,7 @@ void write_all(const std::filesystem::path& path, int descriptor, Bytes bytes) {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path,
-                           std::initializer_list<Bytes> parts) {
+void write_file_atomically(const std::filesystem::path& path, std::span<const Bytes> parts) {
     const TemporaryFile temporary = make_temporary(path);
     try {
         for (const Bytes part : parts) {

@@ -13,8 +13,11 @@ using Bytes = std::span<const std::byte>;
 // Writes the parts one after another. What an earlier run left under the temporary name is in
 // nobody's way. Throws FileError naming the file and the system's reason; the old file, if any,
 // is then still there.
-void write_file_atomically(const std::filesystem::path& path,
-                           std::initializer_list<Bytes> parts);
+void write_file_atomically(const std::filesystem::path& path, std::span<const Bytes> parts);
+inline void write_file_atomically(const std::filesystem::path& path,
+                                  std::initializer_list<Bytes> parts) {
+    write_file_atomically(path, std::span(parts.begin(), parts.size()));
+}
 
 template <typename T>
 [[nodiscard]] Bytes bytes_of(const T& contiguous) {
