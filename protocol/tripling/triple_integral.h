@@ -37,7 +37,7 @@ template <typename Number>
     return sum;
 }
 
-namespace detail {
+// The parts of a square that the algorithms share.
 
 // The three coefficients of a square, in the order of kWaveletTypes.
 template <typename Number>
@@ -83,8 +83,6 @@ Number square_term(const std::array<Number, 3>& averages,  // of L, V, ρ̃
     return sum;
 }
 
-}  // namespace detail
-
 // The parent sum of a function at a square, over the square's amplitude 2^level/n: the value
 // over the square of all basis functions of coarser levels. Climbs to the root.
 template <typename Number>
@@ -97,7 +95,7 @@ template <typename Number>
         const std::uint32_t quadrant = 2 * (square.row % 2) + square.column % 2;
         square = {square.level - 1, square.row / 2, square.column / 2};
         scale = scale * Number(0.5);
-        const auto wavelets = detail::square_coefficients(n, square, coefficients);
+        const auto wavelets = square_coefficients(n, square, coefficients);
         for (std::size_t m = 0; m < 3; ++m) {
             const Number part = scale * wavelets[m];
             sum = kQuadrantSigns[quadrant][m] > 0 ? sum + part : sum - part;
@@ -118,10 +116,9 @@ template <typename Number>
                                              parent_sum(n, square, face.visibility),
                                              parent_sum(n, square, face.material)};
         sum = sum + Number(amplitude(n, square.level)) *
-                        detail::square_term(
-                            averages, detail::square_coefficients(n, square, face.light),
-                            detail::square_coefficients(n, square, face.visibility),
-                            detail::square_coefficients(n, square, face.material));
+                        square_term(averages, square_coefficients(n, square, face.light),
+                                    square_coefficients(n, square, face.visibility),
+                                    square_coefficients(n, square, face.material));
     }
     return sum;
 }
@@ -154,16 +151,16 @@ template <typename Number>
                 if (level > 0) {
                     averages[f] = averages[f] * Number(0.5);
                 }
-                wavelets[f] = detail::square_coefficients(n, square, functions[f]);
+                wavelets[f] = square_coefficients(n, square, functions[f]);
                 if (!is_finest) {
-                    const auto quarters = detail::quarter_sums(averages[f], wavelets[f]);
+                    const auto quarters = quarter_sums(averages[f], wavelets[f]);
                     for (std::size_t quadrant = 0; quadrant < 4; ++quadrant) {
                         handed_down[4 * i + quadrant][f] = quarters[quadrant];
                     }
                 }
             }
-            level_sum = level_sum +
-                        detail::square_term(averages, wavelets[0], wavelets[1], wavelets[2]);
+            level_sum =
+                level_sum + square_term(averages, wavelets[0], wavelets[1], wavelets[2]);
         }
         sum = sum + Number(amplitude(n, level)) * level_sum;
         inherited = std::move(handed_down);

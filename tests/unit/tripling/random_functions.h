@@ -48,6 +48,15 @@ inline std::vector<float> random_visibility(std::uint32_t n, unsigned seed) {
     return open;
 }
 
+// A bit a texel, set where the value is not 0.
+inline std::vector<std::uint64_t> bits_of(std::span<const float> open) {
+    std::vector<std::uint64_t> bits((open.size() + 63) / 64, 0);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        bits[i / 64] |= std::uint64_t{open[i] != 0} << i % 64;
+    }
+    return bits;
+}
+
 // Coefficients of the six faces of a cubemap, n a power of two from 1 on.
 inline std::vector<float> coefficients_of(std::uint32_t n, std::vector<float> texels) {
     basis::haar_forward_cubemap(n, texels);
