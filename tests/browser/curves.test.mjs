@@ -213,6 +213,15 @@ describe("curves", { timeout: 240_000 }, () => {
         await page.until((relume) => !("pearl" in relume.state.materials));
     });
 
+    it("says how a measured material comes into a scene", async () => {
+        const page = await worn("measured");
+        const remark = page.page.locator("details.material-remark");
+        const option = remark.getByText("--measured MATERIAL=FILE");
+        assert.equal(await option.isVisible(), false);
+        await remark.getByText("Measured materials").click();
+        await option.waitFor({ state: "visible" });
+    });
+
     it("is worked by the keyboard, and has points to move, add and remove", async () => {
         const page = await worn("keys");
         const { keyboard, mouse } = page.page;

@@ -17,6 +17,11 @@ const kRemark =
     "Light, view and interreflection stay as they were baked: an edited material is not seen " +
     "in the light that it throws on others.";
 
+const kMeasuredRemark =
+    "None is shipped. A file in the layout of the MERL database becomes the curves of a material " +
+    "when the scene is baked: ";
+const kMeasuredOption = "relume-bake SCENE --edit MATERIAL --measured MATERIAL=FILE.binary";
+
 export class MaterialPanel {
     readonly editor: CurveEditor;
     private readonly list = make("ul", "material-list", { "aria-label": "Materials" });
@@ -72,6 +77,14 @@ export class MaterialPanel {
             this.presets,
             controls,
             make("p", "material-remark", {}, kRemark),
+            make(
+                "details",
+                "material-remark",
+                {},
+                make("summary", "", {}, "Measured materials"),
+                kMeasuredRemark,
+                make("code", "", {}, kMeasuredOption),
+            ),
         );
         this.editor = new CurveEditor(curve, connection, materials);
         new MaterialControls(controls, connection, materials);
