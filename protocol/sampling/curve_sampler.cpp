@@ -48,19 +48,22 @@ bool CurveSampler::draw(Way way, std::uint32_t index, std::uint64_t key) {
             way == Way::by_angle ? sample_angle(angle_, point_.wo, u).wi : cosine_direction(u);
         world_ = point_.shading.world_from_local(wi_);
     }
-    if (wi_.z <= 0 || world_.dot(point_.geometric_normal) <= 0) {
-        return false;
-    }
+    return wi_.z > 0 && world_.dot(point_.geometric_normal) > 0;
+}
+
+bool CurveSampler::reflects() {
     diffuse_ = point_.diffuse.times_cosine(wi_.z, point_.wo.z);
     curve_ = edited_.brdf.quotient(edited_.curve, wi_, point_.wo) * wi_.z;
     return !is_black(diffuse_) || !is_black(curve_);
 }
 
+float CurveSampler::density() const {
+    return counts_[0] * angle_pdf(angle_, wi_, point_.wo) + counts_[1] * light_.pdf(world_) +
+           counts_[2] * wi_.z * std::numbers::inv_pi_v<float>;
+}
+
 void CurveSampler::add(const Imath::V3f& radiance, CurveShares& shares) const {
-    const float density = counts_[0] * angle_pdf(angle_, wi_, point_.wo) +
-                          counts_[1] * light_.pdf(world_) +
-                          counts_[2] * wi_.z * std::numbers::inv_pi_v<float>;
-    const Imath::V3f weight = radiance / density;
+    const Imath::V3f weight = radiance / density();
     shares.diffuse += weight * diffuse_;
     const Imath::V3f value = weight * curve_;
     const curve::CurvePlace place =

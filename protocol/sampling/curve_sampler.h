@@ -57,12 +57,17 @@ class CurveSampler {
                  const TexelLight& light,
                  const std::array<std::uint32_t, kWays.size()>& counts);
 
-    // Direction `index` of sequence `key` of the ways' sequences; false where it counts for
-    // nothing whatever comes from there.
+    // Direction `index` of sequence `key` of the ways' sequences; false where it lies below the
+    // surface.
     [[nodiscard]] bool draw(Way way, std::uint32_t index, std::uint64_t key);
-    // The direction that was drawn: unit, in the world.
+    // Of the direction that was drawn: unit, in the world, and in the frame of shading.
     [[nodiscard]] const Imath::V3f& direction() const { return world_; }
-    // Of the direction that was drawn, from which `radiance` comes.
+    [[nodiscard]] const Imath::V3f& local_direction() const { return wi_; }
+    // How many directions of the whole estimate there are a steradian around it.
+    [[nodiscard]] float density() const;
+    // Whether anything that comes from there is seen.
+    [[nodiscard]] bool reflects();
+    // Adds what `radiance` from there shows. Of a direction that reflects.
     void add(const Imath::V3f& radiance, CurveShares& shares) const;
 
   private:

@@ -93,6 +93,8 @@ class Session {
         return target_is_new_ && full_product_.running();
     }
     [[nodiscard]] double stated_error() const;
+    // Estimated length of the image shown, over all receivers and colours.
+    [[nodiscard]] double shown_norm() const { return error_.shown_norm(); }
     [[nodiscard]] const Workspace& workspace() const { return *workspace_; }
 
     // Approximation L̃, planar [3][N].

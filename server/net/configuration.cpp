@@ -147,6 +147,9 @@ void add_rooms(OptionSet& options, Configuration& c) {
                              "Least time between two images that converge");
     options.add_milliseconds("slice-ceiling-ms", room.images.slice_ceiling,
                              "Longest that one room relights before another may");
+    options.add_count("room-material-bytes", room.images.material_bytes,
+                      "For materials of a room that are edited beside its light", 0,
+                      std::uint64_t{1} << 40);
     options.add_count("moving-quality", room.images.moving_jpeg_quality,
                       "JPEG quality while the state changes", 1, 100);
     options.add_count("converging-quality", room.images.converging_jpeg_quality,

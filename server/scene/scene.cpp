@@ -16,6 +16,9 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     if (manifest.signal_basis.is_of_light()) {
         projection_ = basis::CubemapProjection::onto(manifest.signal_basis.cubemap());
     }
+    if (manifest.materials) {
+        editable_points_ = std::make_shared<const materials::EditablePoints>(transport_);
+    }
     if (!transport_->surface()) {
         beginning_ = beginning_of_image(manifest);
         return;
@@ -29,6 +32,9 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
 }
 
 std::span<const transport::CurveRecord> Scene::curves() const {
+    if (editable_points_) {
+        return editable_points_->records();
+    }
     const std::optional<transport::CurvesSection>& section = transport_->manifest().curves;
     return section ? section->curves : std::span<const transport::CurveRecord>();
 }
@@ -50,7 +56,8 @@ void Scene::write_image(std::span<const float> sums, std::span<float> rgb) const
 }
 
 std::uint64_t Scene::bytes() const {
-    return operator_->bytes() + (surface_ ? surface_->bytes() : 0);
+    return operator_->bytes() + (surface_ ? surface_->bytes() : 0) +
+           (editable_points_ ? editable_points_->bytes() : 0);
 }
 
 }  // namespace relume::served

@@ -5,6 +5,7 @@
 #include "protocol/transport/transport.h"
 #include "server/engine/operators/stored_operator.h"
 #include "server/engine/workspace.h"
+#include "server/materials/editable_points.h"
 #include "server/scene/scene_bounds.h"
 #include "server/view/view.h"
 
@@ -38,8 +39,14 @@ class Scene {
     [[nodiscard]] std::uint32_t face_resolution() const {
         return projection_->basis().face_resolution();
     }
-    // Of the materials that people edit, in the order of the basis; none where it is lit.
+    // That people edit. Of a scene that is not lit they are the signal, in the order of the
+    // basis; of one that is lit, those of `editable_points`.
     [[nodiscard]] std::span<const transport::CurveRecord> curves() const;
+    // Of a scene that is lit, and whose materials people edit beside its light; else null.
+    [[nodiscard]] const std::shared_ptr<const materials::EditablePoints>& editable_points()
+        const {
+        return editable_points_;
+    }
     [[nodiscard]] const engine::StoredOperator& stored_operator() const { return *operator_; }
     [[nodiscard]] const engine::ColumnTable& columns() const { return operator_->columns(); }
     // What sessions over the scene are made with.
@@ -69,6 +76,7 @@ class Scene {
     std::shared_ptr<const engine::StoredOperator> operator_;
     std::shared_ptr<const engine::Workspace> workspace_;
     std::shared_ptr<const view::DrawnSurface> surface_;  // of a mesh
+    std::shared_ptr<const materials::EditablePoints> editable_points_;
     std::optional<SceneBounds> bounds_;
     view::Look beginning_;
 };

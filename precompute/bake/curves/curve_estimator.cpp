@@ -61,7 +61,7 @@ void CurveEstimator::estimate(const ReceiverSurface& surface,
                 surface.turns.empty() ? surface.origins[i % kPacketSize] : offset_origin(point);
             const sampling::CurvePoint lit = curve_point(point, material);
             sampling::CurveSampler sampler(lit, edited, radiance_.light(), counts);
-            if (sampler.draw(way, first + i, key)) {
+            if (sampler.draw(way, first + i, key) && sampler.reflects()) {
                 sampler.add(radiance_.incoming(origin, sampler.direction(),
                                                {.index = first + i, .key = key + 2}, rays),
                             shares);

@@ -114,6 +114,18 @@ curve::Curve curve_from_samples(const wire::NumberTable& samples) {
     return curve;
 }
 
+curve::Curve edited_curve(const MaterialEdit& edit) {
+    curve::Curve curve;
+    for (std::size_t k = 0; k < curve::kCurveSamples; ++k) {
+        for (std::size_t channel = 0; channel < kChannels; ++channel) {
+            curve.rgb[channel][k] =
+                static_cast<float>(edit.samples.numbers[k * kChannels + channel] *
+                                   edit.tint[static_cast<int>(channel)]);
+        }
+    }
+    return curve;
+}
+
 wire::MaterialEdit edit_as_baked(const transport::CurveRecord& record) {
     MaterialEdit edit;
     edit.samples = samples_from_curve({record.baked});

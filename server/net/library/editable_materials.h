@@ -19,6 +19,9 @@ namespace relume::net {
 [[nodiscard]] wire::NumberTable samples_from_curve(const curve::Curve& curve);
 [[nodiscard]] curve::Curve curve_from_samples(const wire::NumberTable& samples);
 
+// What an edit shows: its samples times its tint.
+[[nodiscard]] curve::Curve edited_curve(const wire::MaterialEdit& edit);
+
 // The material without an edit: the samples as baked, and what they were made from where that
 // is a shape.
 [[nodiscard]] wire::MaterialEdit edit_as_baked(const transport::CurveRecord& record);

@@ -51,6 +51,9 @@ std::vector<std::string> edits_of(const served::Scene& scene) {
         return edits;
     }
     edits.insert(edits.begin(), {"environment", "blend", "rotation", "lights", "background"});
+    if (scene.editable_points()) {
+        edits.insert(edits.begin(), "materials");
+    }
     if (scene.view_can_move()) {
         edits.insert(edits.end(), {"camera", "image"});
     }

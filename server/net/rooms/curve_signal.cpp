@@ -1,6 +1,7 @@
 #include "server/net/rooms/curve_signal.h"
 
 #include "protocol/basis/curve_projection.h"
+#include "server/net/library/editable_materials.h"
 
 #include <Imath/ImathVec.h>
 
@@ -13,27 +14,18 @@ namespace {
 
 constexpr std::size_t kChannels = 3;
 
-struct ShownMaterial {
+struct ShownCurve {
     transport::CurveRecord::Samples curve{};
     Imath::V3f diffuse{1, 1, 1};
 };
 
-ShownMaterial shown_material(const transport::CurveRecord& record,
-                             const wire::MaterialEdits& edits) {
+ShownCurve shown_curve(const transport::CurveRecord& record, const wire::MaterialEdits& edits) {
     const auto found = edits.find(record.id);
     if (found == edits.end()) {
         return {.curve = record.baked, .diffuse = Imath::V3f(1, 1, 1)};
     }
-    const wire::MaterialEdit& edit = found->second;
-    ShownMaterial shown{.curve = {}, .diffuse = Imath::V3f(edit.diffuse)};
-    for (std::size_t k = 0; k < curve::kCurveSamples; ++k) {
-        for (std::size_t channel = 0; channel < kChannels; ++channel) {
-            shown.curve[channel][k] =
-                static_cast<float>(edit.samples.numbers[k * kChannels + channel] *
-                                   edit.tint[static_cast<int>(channel)]);
-        }
-    }
-    return shown;
+    return {.curve = edited_curve(found->second).rgb,
+            .diffuse = Imath::V3f(found->second.diffuse)};
 }
 
 }  // namespace
@@ -52,7 +44,7 @@ bool CurveSignal::set_state(const wire::RoomState& state,
         basis::project_rest(std::span(coefficients_).subspan(channel * count, count));
     }
     for (std::uint32_t m = 0; m < curves_.size(); ++m) {
-        const ShownMaterial shown = shown_material(curves_[m], shown_);
+        const ShownCurve shown = shown_curve(curves_[m], shown_);
         for (std::size_t channel = 0; channel < kChannels; ++channel) {
             basis::project_curve(basis, m, shown.diffuse[static_cast<int>(channel)],
                                  shown.curve[channel],

@@ -19,6 +19,7 @@ class LightSignal final : public RoomSignal {
                                  const NamedEnvironments& environments,
                                  std::vector<wire::ErrorMessage>& problems) override;
     [[nodiscard]] std::span<const float> coefficients() const override { return coefficients_; }
+    [[nodiscard]] const light::LightCubemap* cubemap() const override { return &cubemap_; }
     [[nodiscard]] const light::LightRig& rig() const override { return rig_; }
 
   private:

@@ -1,6 +1,9 @@
 #include "server/net/rooms/relighter.h"
 
+#include "server/view/tile_addend.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -17,15 +20,32 @@ view::Look look_of(const wire::RoomState& state) {
             .height = state.image.height};
 }
 
+std::unique_ptr<view::View> make_view(const served::Scene& scene,
+                                      const view::TileAddend* addend) {
+    std::unique_ptr<view::View> view = scene.make_view();
+    if (addend == nullptr) {
+        return view;
+    }
+    return std::make_unique<view::AddedView>(std::move(view), *addend);
+}
+
 }  // namespace
 
 Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
                      Metrics& metrics,
-                     Clock::duration ceiling)
+                     Clock::duration ceiling,
+                     std::size_t material_bytes)
     : scene_(std::move(scene)),
       metrics_(metrics),
       session_(scene_->loaded->workspace(), relighting::Strategy{}),
-      composer_(std::make_shared<FrameComposer>(scene_->loaded->make_view(), scene_->sky)),
+      materials_(scene_->loaded->editable_points()
+                     ? std::unique_ptr<Materials>(new Materials{
+                           EditedMaterials(scene_->loaded->editable_points()),
+                           materials::MaterialLayer(scene_->loaded->editable_points(),
+                                                    material_bytes)})
+                     : nullptr),
+      composer_(std::make_shared<FrameComposer>(
+          make_view(*scene_->loaded, materials_ ? &materials_->layer : nullptr), scene_->sky)),
       signal_(make_signal(*scene_->loaded)),
       budget_(milliseconds(ceiling)) {}
 
@@ -42,6 +62,9 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
     if (signal_is_new) {
         session_.set_target(signal_->coefficients());
         pixels_changed();
+    }
+    if (materials_ && stages.has(wire::Stage::signal)) {
+        set_materials(state, signal_is_new);
     }
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
     if (stages.has(wire::Stage::view) && (composer_->look(look_of(state)) || !state_)) {
@@ -79,6 +102,50 @@ void Relighter::tell_session_what_counts() {
     }
 }
 
+// A layer that shows nothing is not told of the light.
+void Relighter::set_materials(const wire::RoomState& state, bool light_is_new) {
+    materials_->light_is_new = materials_->light_is_new || light_is_new;
+    const bool edits_are_new = materials_->edited.set_edits(state.materials);
+    if (materials_->light_is_new && !state.materials.empty()) {
+        materials_->layer.set_light(*signal_->cubemap());
+        materials_->light_is_new = false;
+    }
+    if (edits_are_new) {
+        materials_->layer.set_shown(materials_->edited.shown());
+        pixels_changed();
+    }
+}
+
+void Relighter::advance_materials(double milliseconds) {
+    const Clock::time_point begin = Clock::now();
+    if (materials_->layer.advance(milliseconds)) {
+        pixels_changed();
+    }
+    relight_time_ += Clock::now() - begin;
+}
+
+bool Relighter::exact() const {
+    return session_.exact() && (!materials_ || materials_->layer.is_whole());
+}
+
+bool Relighter::at_rest() const {
+    const double enough = state_->budget.target_error;
+    return session_.at_rest(state_->budget) &&
+           (!materials_ || !materials_->layer.has_work() ||
+            (!materials_->layer.awaits_first_look() && stated_error() <= enough));
+}
+
+// What the light's image lacks and what materials lack are independent.
+double Relighter::stated_error() const {
+    const double of_light = session_.stated_error();
+    const double of_materials = materials_ ? materials_->layer.error() : 0;
+    if (of_materials == 0) {
+        return of_light;
+    }
+    const double norm = session_.shown_norm();
+    return norm > 0 ? std::hypot(of_light, of_materials / norm) : 1;
+}
+
 void Relighter::pixels_changed() {
     ++pixels_;
     image_changed_ = true;
@@ -87,17 +154,29 @@ void Relighter::pixels_changed() {
 void Relighter::advance_together(std::span<Relighter* const> relighters) {
     const Clock::time_point begin = Clock::now();
     std::vector<engine::SessionStep> slices;
+    std::vector<Relighter*> relit;
     for (Relighter* relighter : relighters) {
+        if (relighter->session_.at_rest(relighter->state_->budget)) {
+            continue;
+        }
+        relit.push_back(relighter);
         slices.push_back({.session = &relighter->session_,
                           .budget = relighter->budget_.for_slice(relighter->state_->budget,
                                                                  relighters.size()),
                           .ceiling_milliseconds = relighter->budget_.ceiling_ms(),
                           .report = {}});
     }
-    engine::Session::advance_together(slices);
+    if (!slices.empty()) {
+        engine::Session::advance_together(slices);
+    }
     const Clock::duration spent = Clock::now() - begin;
     for (std::size_t i = 0; i < slices.size(); ++i) {
-        relighters[i]->relit(slices[i].report, spent);
+        relit[i]->relit(slices[i].report, spent);
+    }
+    for (Relighter* relighter : relighters) {
+        if (relighter->materials_) {
+            relighter->advance_materials(relighter->budget_.ceiling_ms() / 2);
+        }
     }
 }
 
@@ -114,7 +193,10 @@ void Relighter::relit(const engine::StepReport& report, Clock::duration spent) {
 }
 
 bool Relighter::step_is_complete() const {
-    return at_rest() || (!shows_state_before() && budget_.is_spent(state_->budget));
+    const bool is_seen = !materials_ || !materials_->layer.awaits_first_look();
+    return at_rest() ||
+           (!shows_state_before() && is_seen &&
+            (session_.at_rest(state_->budget) || budget_.is_spent(state_->budget)));
 }
 
 void Relighter::compose(const ImageForms& forms, bool settled) {
@@ -134,15 +216,16 @@ Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int
         composer_->set_background(state_->background, signal_->rig());
     }
     compose(forms, stamp.settled);
-    const bool exact = session_.exact();
+    const bool is_exact = exact();
+    const std::size_t tiles_to_come = materials_ ? materials_->layer.tiles_to_come() : 0;
     Picture picture{
         .header = {.encoding = {},
                    .width = composer_->width(),
                    .height = composer_->height(),
                    .revision = stamp.revision,
                    .sequence = stamp.sequence,
-                   .relative_error = exact ? 0.0F : static_cast<float>(session_.stated_error()),
-                   .exact = exact,
+                   .relative_error = is_exact ? 0.0F : static_cast<float>(stated_error()),
+                   .exact = is_exact,
                    .has_alpha = false,
                    .edit_to_image_ms =
                        static_cast<float>(milliseconds(Clock::now() - stamp.edit_read_at)),
@@ -150,7 +233,9 @@ Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int
                    .encode_ms = 0,
                    .coefficients_applied = applied_,
                    .payload_bytes = 0,
-                   .coefficients_remaining = exact ? 0 : remaining_},
+                   .coefficients_remaining = session_.exact()
+                                                 ? static_cast<std::uint32_t>(tiles_to_come)
+                                                 : remaining_},
         .has_alpha = composer_->has_alpha(),
         .settled = stamp.settled,
         .forms = forms,

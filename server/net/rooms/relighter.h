@@ -6,6 +6,7 @@
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
 #include "server/engine/session.h"
+#include "server/materials/material_layer.h"
 #include "server/net/base/clock.h"
 #include "server/net/base/metrics.h"
 #include "server/net/images/display_tables.h"
@@ -13,6 +14,7 @@
 #include "server/net/images/image_frame.h"
 #include "server/net/images/picture.h"
 #include "server/net/library/scene_library.h"
+#include "server/net/rooms/edited_materials.h"
 #include "server/net/rooms/named_environments.h"
 #include "server/net/rooms/room_signal.h"
 #include "server/net/rooms/stages.h"
@@ -28,10 +30,12 @@ namespace relume::net {
 // Not thread-safe: a room calls it from one worker at a time.
 class Relighter {
   public:
-    // `ceiling` is the longest that one call of advance_together takes.
+    // `ceiling` is the longest that one call of advance_together takes; columns of materials
+    // that are edited beside the light take `material_bytes`.
     Relighter(std::shared_ptr<const ServedScene> scene,
               Metrics& metrics,
-              Clock::duration ceiling);
+              Clock::duration ceiling,
+              std::size_t material_bytes = materials::kUsualMaterialBytes);
 
     // Gives the state that images show from now on. `stages` are those in which it differs from
     // the state before (all of them in the first call); no other stage runs again. A new
@@ -50,8 +54,8 @@ class Relighter {
     // Whether the image is still that of the light before.
     [[nodiscard]] bool shows_state_before() const { return session_.shows_target_before(); }
     // Nothing is left to do: exact, or the target error is met.
-    [[nodiscard]] bool at_rest() const { return session_.at_rest(state_->budget); }
-    [[nodiscard]] double stated_error() const { return session_.stated_error(); }
+    [[nodiscard]] bool at_rest() const;
+    [[nodiscard]] double stated_error() const;
     // Whether the image, or a JPEG of it, would differ from the one composed last.
     [[nodiscard]] bool image_changed() const { return image_changed_; }
     // Rises whenever the image's linear pixels may have changed.
@@ -66,6 +70,16 @@ class Relighter {
     void set_overhead(double milliseconds) { budget_.set_overhead(milliseconds); }
 
   private:
+    // Materials that are edited beside the light.
+    struct Materials {
+        EditedMaterials edited;
+        materials::MaterialLayer layer;
+        bool light_is_new = true;
+    };
+
+    void set_materials(const wire::RoomState& state, bool light_is_new);
+    void advance_materials(double milliseconds);
+    [[nodiscard]] bool exact() const;
     // Of the view, as it is looked at.
     void tell_session_what_counts();
     void relit(const engine::StepReport& report, Clock::duration spent);
@@ -75,6 +89,7 @@ class Relighter {
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
     engine::Session session_;
+    const std::unique_ptr<Materials> materials_;  // null where none are edited beside light
     std::shared_ptr<FrameComposer> composer_;
 
     const std::unique_ptr<RoomSignal> signal_;

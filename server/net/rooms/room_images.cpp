@@ -11,7 +11,8 @@ RoomImages::RoomImages(std::shared_ptr<const ServedScene> scene,
 
 std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
     if (!relighter_) {
-        relighter_ = std::make_unique<Relighter>(scene_, metrics_, options_.slice_ceiling);
+        relighter_ = std::make_unique<Relighter>(scene_, metrics_, options_.slice_ceiling,
+                                                 options_.material_bytes);
     }
     relighter_->set_overhead(slice.order.overhead_ms);
     if (!slice.order.takes_state) {

@@ -20,6 +20,8 @@ struct ImageOptions {
     // The longest that a slice relights, whatever a room's budget, so that other rooms get
     // their turn.
     std::chrono::milliseconds slice_ceiling{16};
+    // Of columns of one room's materials that are edited beside its light.
+    std::size_t material_bytes = materials::kUsualMaterialBytes;
     int moving_jpeg_quality = 80;
     int converging_jpeg_quality = 95;
 };

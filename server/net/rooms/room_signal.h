@@ -2,6 +2,7 @@
 // its materials.
 #pragma once
 
+#include "protocol/light/light_cubemap.h"
 #include "protocol/light/light_rig.h"
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
@@ -29,6 +30,8 @@ class RoomSignal {
                                          std::vector<wire::ErrorMessage>& problems) = 0;
     // Of the scene's basis, planar [3][N].
     [[nodiscard]] virtual std::span<const float> coefficients() const = 0;
+    // The light as texels, of a scene that is lit; else null.
+    [[nodiscard]] virtual const light::LightCubemap* cubemap() const { return nullptr; }
     // The light that shows behind the scene; dark where the bake holds what shows there.
     [[nodiscard]] virtual const light::LightRig& rig() const = 0;
 };

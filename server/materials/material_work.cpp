@@ -1,0 +1,205 @@
+#include "server/materials/material_work.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace relume::materials {
+namespace {
+
+// Paths of a bake of light whose directions a tile's columns have (kDirectionsOfWay).
+constexpr std::uint32_t kDraftSamples = 8;
+constexpr std::uint32_t kWholeSamples = 64;
+// Tiles that are worked on together.
+constexpr std::size_t kGlanceBatch = 32;
+constexpr std::size_t kDraftBatch = 8;
+constexpr std::size_t kWholeBatch = 2;
+
+double squared_length(std::span<const float> values) {
+    double sum = 0;
+    for (const float value : values) {
+        sum += double{value} * double{value};
+    }
+    return sum;
+}
+
+}  // namespace
+
+void KnownErrors::compare(Knowledge before,
+                          std::span<const float> shown,
+                          std::span<const float> whole) {
+    if (shown.size() != whole.size()) {
+        return;
+    }
+    const auto at = static_cast<std::size_t>(before);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const double difference = double{shown[i]} - double{whole[i]};
+        difference_[at] += difference * difference;
+    }
+    whole_[at] += squared_length(whole);
+}
+
+void KnownErrors::learn() {
+    for (const Knowledge knowledge : {Knowledge::glance, Knowledge::draft}) {
+        const auto at = static_cast<std::size_t>(knowledge);
+        if (whole_[at] > 0) {
+            relative_[at] = std::sqrt(difference_[at] / whole_[at]);
+        }
+        difference_[at] = whole_[at] = 0;
+    }
+}
+
+MaterialWork::MaterialWork(const EditablePoints& points, ShownMaterial shown)
+    : points_(points),
+      shown_(std::move(shown)),
+      tile_from_number_(points.image().block_count(), -1) {
+    for (const std::uint32_t tile : points.materials()[shown_.material].tiles) {
+        tile_from_number_[tile] = static_cast<std::int32_t>(tiles_.size());
+        tiles_.push_back({.number = tile});
+    }
+}
+
+void MaterialWork::show(ShownMaterial shown) {
+    shown_ = std::move(shown);
+    glance_is_of_the_past_ = true;
+    for (Tile& tile : tiles_) {
+        tile.is_applied = false;
+        tile.knowledge = Knowledge::nothing;
+    }
+    count();
+}
+
+void MaterialWork::light_has_changed() {
+    glance_is_of_the_past_ = true;
+    for (Tile& tile : tiles_) {
+        tile.columns.reset();
+        tile.columns_are_whole = tile.is_applied = false;
+        tile.knowledge = Knowledge::nothing;
+    }
+    count();
+}
+
+void MaterialWork::show_changes_of(const MaterialWork& other) {
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        tiles_[i].change = other.tiles_[i].change;
+    }
+}
+
+// Of a tile that has columns.
+void MaterialWork::set_change(Tile& tile, Knowledge knowledge) {
+    const TileColumns& columns = *tile.columns;
+    tile.change.slots.assign(columns.slots().begin(), columns.slots().end());
+    tile.change.rgb.resize(3 * columns.slots().size());
+    columns.change(shown_.brdf.curves()[shown_.taken_up].curve, shown_.diffuse,
+                   tile.change.rgb);
+    tile.knowledge = knowledge;
+    tile.is_applied = true;
+}
+
+void MaterialWork::count() {
+    known_ = whole_ = 0;
+    for (const Tile& tile : tiles_) {
+        known_ += tile.knowledge != Knowledge::nothing ? 1U : 0U;
+        whole_ += tile.knowledge == Knowledge::whole ? 1U : 0U;
+    }
+}
+
+bool MaterialWork::apply_columns() {
+    std::vector<Tile*> due;
+    for (Tile& tile : tiles_) {
+        if (tile.columns && !tile.is_applied) {
+            due.push_back(&tile);
+        }
+    }
+    tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t i) {
+        set_change(*due[i], due[i]->columns_are_whole ? Knowledge::whole : Knowledge::draft);
+    });
+    count();
+    return !due.empty();
+}
+
+bool MaterialWork::glance(const std::shared_ptr<const PresentLight>& light) {
+    if (next_glance_ == 0) {
+        glance_light_ = light;
+        glance_shown_ = std::make_unique<const ShownMaterial>(shown_);
+        glance_is_of_the_past_ = false;
+    }
+    const std::size_t end = std::min(next_glance_ + kGlanceBatch, tiles_.size());
+    const TileEstimate estimate(points_, *glance_light_);
+    tbb::parallel_for(next_glance_, end, [&](std::size_t i) {
+        if (!tiles_[i].columns) {
+            tiles_[i].glanced = estimate.glance(*glance_shown_, tiles_[i].number);
+        }
+    });
+    next_glance_ = end;
+    if (end < tiles_.size()) {
+        return false;
+    }
+    for (Tile& tile : tiles_) {
+        if (tile.columns) {
+            continue;
+        }
+        std::swap(tile.change, tile.glanced);
+        tile.knowledge = glance_is_of_the_past_ ? Knowledge::nothing : Knowledge::glance;
+    }
+    next_glance_ = 0;
+    glance_light_.reset();
+    count();
+    return true;
+}
+
+bool MaterialWork::estimate(const PresentLight& light, KnownErrors& errors) {
+    const auto needs_draft = [](const Tile& tile) { return !tile.columns; };
+    const bool drafts = std::any_of(tiles_.begin(), tiles_.end(), needs_draft);
+    std::vector<Tile*> batch;
+    for (Tile& tile : tiles_) {
+        if (batch.size() < (drafts ? kDraftBatch : kWholeBatch) &&
+            (drafts ? needs_draft(tile) : !tile.columns_are_whole)) {
+            batch.push_back(&tile);
+        }
+    }
+    const TileEstimate estimate(points_, light);
+    std::vector<std::pair<Knowledge, std::vector<float>>> before(batch.size());
+    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+        Tile& tile = *batch[i];
+        before[i] = {tile.knowledge, tile.change.rgb};
+        tile.columns = std::make_unique<const TileColumns>(
+            estimate.columns(shown_, tile.number, drafts ? kDraftSamples : kWholeSamples));
+        tile.columns_are_whole = !drafts;
+        set_change(tile, drafts ? Knowledge::draft : Knowledge::whole);
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        errors.compare(before[i].first, before[i].second, batch[i]->change.rgb);
+    }
+    count();
+    return true;
+}
+
+double MaterialWork::squared_error(const KnownErrors& errors) const {
+    double sum = 0;
+    for (const Tile& tile : tiles_) {
+        if (tile.knowledge != Knowledge::whole) {
+            const double relative = errors.of(tile.knowledge);
+            sum += relative * relative * squared_length(tile.change.rgb);
+        }
+    }
+    return sum;
+}
+
+std::size_t MaterialWork::bytes() const {
+    std::size_t sum = 0;
+    for (const Tile& tile : tiles_) {
+        sum += sizeof(Tile) + (tile.columns ? tile.columns->bytes() : 0) +
+               (tile.change.rgb.capacity() + tile.glanced.rgb.capacity()) * sizeof(float);
+    }
+    return sum;
+}
+
+const TileChange* MaterialWork::change(std::uint32_t tile) const {
+    const std::int32_t at = tile_from_number_[tile];
+    return at < 0 ? nullptr : &tiles_[static_cast<std::size_t>(at)].change;
+}
+
+}  // namespace relume::materials
