@@ -6,6 +6,7 @@ import { MaterialSphere } from "./material_sphere";
 import type { Materials } from "./materials";
 import { onceAFrame } from "./once_a_frame";
 import type { RoomConnection } from "./room_connection";
+import type { EditableMaterial } from "./wire/message";
 
 /** Whether people edit materials in the connection's scene. */
 export function editsMaterials(connection: RoomConnection): boolean {
@@ -13,9 +14,21 @@ export function editsMaterials(connection: RoomConnection): boolean {
     return scene?.edits?.includes("materials") === true && (scene.materials ?? []).length > 0;
 }
 
-const kRemark =
+const kRemarkOfFrozenLight =
     "Light, view and interreflection stay as they were baked: an edited material is not seen " +
     "in the light that it throws on others.";
+const kRemarkOfLight =
+    "Light that reaches a material by way of other surfaces meets it as it was baked, and an " +
+    "edited material is not seen in the light that it throws on others.";
+
+/** The curve is named where a material has several that people edit. */
+export function titleOf(
+    { name, curve }: EditableMaterial,
+    all: readonly EditableMaterial[],
+): string {
+    const isOneOfSeveral = all.filter((other) => other.name === name).length > 1;
+    return isOneOfSeveral ? `${name}: ${curve.replace("_", " ")}` : name;
+}
 
 const kMeasuredRemark =
     "None is shipped. A file in the layout of the MERL database becomes the curves of a material " +
@@ -30,6 +43,7 @@ export class MaterialPanel {
         "aria-label": "Presets",
     });
     private readonly title = make("h3", "curve-title");
+    private readonly remark = make("p", "material-remark");
     private readonly sphere = new MaterialSphere();
     private readonly buttons: { undo: HTMLButtonElement; redo: HTMLButtonElement };
     private readonly reset: HTMLButtonElement;
@@ -76,7 +90,7 @@ export class MaterialPanel {
             curve,
             this.presets,
             controls,
-            make("p", "material-remark", {}, kRemark),
+            this.remark,
             make(
                 "details",
                 "material-remark",
@@ -102,6 +116,10 @@ export class MaterialPanel {
         this.buttons.redo.disabled = !isOpen || !history.canRedo;
         this.reset.disabled = !isOpen || !this.materials.isEdited(selected.id);
         setText(this.title, `${selected.name}: ${selected.curve.replace("_", " ")}`);
+        setText(
+            this.remark,
+            this.connection.takes("environment") ? kRemarkOfLight : kRemarkOfFrozenLight,
+        );
         this.drawLists();
         this.sphere.draw(selected, edit);
     }
@@ -118,7 +136,8 @@ export class MaterialPanel {
         this.drawn = key;
         const hadFocus = this.list.contains(document.activeElement);
         this.list.replaceChildren(
-            ...all.map(({ id, name }) => {
+            ...all.map((material) => {
+                const { id } = material;
                 const isEdited = this.materials.isEdited(id);
                 const row = make(
                     "button",
@@ -128,7 +147,7 @@ export class MaterialPanel {
                         "data-material": id,
                         "aria-pressed": String(id === selected?.id),
                     },
-                    make("span", "material-name", {}, name),
+                    make("span", "material-name", {}, titleOf(material, all)),
                     make("span", "material-state", {}, isEdited ? "edited" : ""),
                 );
                 row.addEventListener("click", () => this.materials.select(id));

@@ -77,6 +77,6 @@ export class MaterialPicker {
         const x = Math.floor(((clientX - left) / width) * map.width);
         const y = Math.floor(((clientY - top) / height) * map.height);
         if (x < 0 || y < 0 || x >= map.width || y >= map.height) return null;
-        return this.materials.all[map.places[y * map.width + x]! - 1]?.id ?? null;
+        return this.materials.idAtPlace(map.places[y * map.width + x]!);
     }
 }

@@ -61,6 +61,14 @@ export class Materials {
         return this.connection.snapshot?.scene.materials ?? [];
     }
 
+    /** Of a place in the map of the materials: of its curves the one selected, or the first. */
+    idAtPlace(place: number): string | null {
+        const name = [...new Set(this.all.map((material) => material.name))][place - 1];
+        if (name === undefined) return null;
+        if (this.selected?.name === name) return this.selectedId;
+        return this.all.find((material) => material.name === name)?.id ?? null;
+    }
+
     get selected(): EditableMaterial | null {
         return this.all.find(({ id }) => id === this.selectedId) ?? null;
     }

@@ -251,13 +251,14 @@ export class Studio {
         connection.editDropped.listen((id) => this.timer.editDropped(id));
     }
 
-    /** Materials or light: the panels of the other are not there. */
+    /** Panels of what the scene does not let people edit are not there. */
     private showWhatIsEdited(): void {
         const materials = editsMaterials(this.connection);
-        document.body.classList.toggle("edits-materials", materials);
+        const light = this.connection.takes("environment");
+        document.body.classList.toggle("edits-materials", materials && !light);
         byId("materials-card").hidden = !materials;
         for (const id of ["environment-panel", "light-card"]) {
-            byId(id).hidden = !this.connection.takes("environment");
+            byId(id).hidden = !light;
         }
     }
 
