@@ -102,7 +102,8 @@ void require_materials(const Url& server, const std::string& scene, const json& 
     const std::vector<std::string> known = materials_of(server, scene);
     if (known.empty()) {
         throw ClientError(fmt::format(
-            "scene {}: found no materials that can be edited, expected one of kind curves",
+            "scene {}: found no materials that can be edited, expected one of kind "
+            "curves, or an image baked with --editable",
             text::quote(scene)));
     }
     for (const auto& [material, edit] : materials.items()) {
