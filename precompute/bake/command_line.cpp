@@ -45,8 +45,6 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                                                        {"z", scene::UpAxis::z}};
     const std::map<std::string, ReceiverKind> kinds_of_receivers{
         {"pixels", ReceiverKind::pixels}, {"vertices", ReceiverKind::vertices}};
-    const std::map<std::string, factors::Method> factor_methods{{"svd", factors::Method::svd},
-                                                                {"nmf", factors::Method::nmf}};
     BakeParameters& p = arguments.parameters;
     auto* scene =
         app.add_option("scene", arguments.scene, "glTF 2.0, GLB, OBJ or PLY file to bake");
@@ -107,9 +105,10 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--terms", p.terms,
                    "Of every material's BRDF, 1 to 10; 0: as few as meet the target error")
         ->capture_default_str();
-    app.add_option("--factors", p.factor_method,
-                   "How BRDFs are factored: svd, or nmf, in which nothing is negative [svd]")
-        ->transform(CLI::CheckedTransformer(factor_methods).description(""));
+    app.add_option("--factors", arguments.factors,
+                   "How BRDFs are factored: into terms by svd, or by nmf, in which nothing is "
+                   "negative [svd]; measured ones into curves by homomorphic, least squares of "
+                   "logarithms, or by nmf [homomorphic]");
     app.add_option("--measured", arguments.measured,
                    "MATERIAL=FILE: the material reflects as was measured, by a .binary file of "
                    "the MERL database; may be given again")

@@ -29,6 +29,7 @@ struct Arguments {
     std::string preview;
     std::optional<std::uint32_t> order;  // of spherical harmonics
     std::vector<std::string> measured;   // MATERIAL=FILE
+    std::string factors;                 // of terms or of curves; empty: as usual
     BakeParameters parameters;
     std::optional<std::uint32_t> light_resolution;
     // bake, of curves

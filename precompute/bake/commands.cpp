@@ -149,6 +149,17 @@ void print_notes(const scene::ImportReport& report) {
     }
 }
 
+// Terms and curves have different ways to be found, and one option that names them.
+template <typename NameTable>
+auto factors_from_option(const std::string& word, const NameTable& names, const char* whose) {
+    const auto method = word.empty() ? names.value(names.words().front()) : names.value(word);
+    if (!method) {
+        throw program::UsageError(fmt::format("--factors is '{}', expected for {} {}", word,
+                                              whose, names.alternatives()));
+    }
+    return *method;
+}
+
 // None where the bake is of light.
 std::optional<CurveEdits> curve_edits(const Arguments& arguments,
                                       const scene::Scene& scene,
@@ -157,7 +168,10 @@ std::optional<CurveEdits> curve_edits(const Arguments& arguments,
     if (arguments.curves.edits.empty()) {
         return std::nullopt;
     }
-    std::vector<EditedMaterial> materials = edited_materials(scene, arguments.curves, measured);
+    CurveRequest request = arguments.curves;
+    request.factors =
+        factors_from_option(arguments.factors, factors::kCurveMethodNames, "curves");
+    std::vector<EditedMaterial> materials = edited_materials(scene, request, measured);
     LightRequest light = arguments.frozen_light;
     if (!arguments.rotate.empty()) {
         const auto degrees = parse_list<double>("--rotate", arguments.rotate, ',', 3,
@@ -218,6 +232,10 @@ int run_bake(const Arguments& arguments) {
                             *arguments.order));
         }
         parameters.order = *arguments.order;
+    }
+    if (arguments.curves.edits.empty()) {
+        parameters.factor_method =
+            factors_from_option(arguments.factors, factors::kMethodNames, "terms");
     }
     check_parameters(parameters);
     std::vector<MeasuredBrdf> measured;

@@ -136,11 +136,27 @@ std::string lines_from_measured(const nlohmann::json& measured) {
     if (measured.contains("materials") && measured.at("materials").is_array()) {
         for (const auto& material : measured.at("materials")) {
             if (material.contains("measured")) {
-                text += fmt::format("  {} in curves of {}: L2 {:.2e}, logarithmic {:.2e}\n",
+                text += fmt::format("  {} in curves of {}, by {}\n",
                                     material.at("measured").get<std::string>(),
                                     material.at("name").get<std::string>(),
-                                    material.at("error_relative_l2").get<double>(),
-                                    material.at("error_logarithmic").get<double>());
+                                    material.at("factors").get<std::string>());
+                for (const auto& [method, error] : material.at("errors").items()) {
+                    text += fmt::format("    error by {}: L2 {:.2e}, logarithmic {:.2e}\n",
+                                        method, error.at("relative_l2").get<double>(),
+                                        error.at("logarithmic").get<double>());
+                }
+            }
+            if (const auto unmeasured = material.value("unmeasured", std::uint64_t{0})) {
+                text += fmt::format(
+                    "    {} of its values are negative: not measured, counted as 0\n",
+                    unmeasured);
+            }
+            if (material.contains("texture_left_out")) {
+                text += fmt::format(
+                    "  warning: one curve stands for all of {}: its {} by texture is left "
+                    "out\n",
+                    material.at("name").get<std::string>(),
+                    material.at("texture_left_out").get<std::string>());
             }
             if (!material.value("in_view", true)) {
                 text += fmt::format("  warning: no pixel sees the edited material {}\n",

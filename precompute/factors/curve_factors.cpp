@@ -91,12 +91,12 @@ double error_of(const CurveFitSamples& samples, int colour, const ColourFit& fit
     return errors.relative_l2 + errors.logarithmic;
 }
 
-ColourFit fit_of(const CurveFitSamples& samples, int colour, double part, bool is_nonnegative) {
+ColourFit fit_of(const CurveFitSamples& samples, int colour, double part, CurveMethod method) {
     ColourFit fit;
     const double quantile = part > 0 ? samples.quantile(colour, part) : 0.0;
     fit.diffuse = quantile > samples.floor()[colour] ? quantile : 0.0;
     fit.columns = homomorphic_columns(samples, colour, fit.diffuse);
-    if (is_nonnegative) {
+    if (method == CurveMethod::nonnegative) {
         improve_nonnegative(samples, colour, fit.diffuse, fit.columns);
     }
     fit.error = error_of(samples, colour, fit);
@@ -105,12 +105,12 @@ ColourFit fit_of(const CurveFitSamples& samples, int colour, double part, bool i
 
 // Tries how much to leave to the diffuse colour, the same part for all colours, so that hues
 // stay what they are.
-ColourFits best_fits(const CurveFitSamples& samples, bool is_nonnegative) {
+ColourFits best_fits(const CurveFitSamples& samples, CurveMethod method) {
     constexpr std::array kParts{0.0, 0.1, 0.3, 0.5};
     std::array<ColourFits, kParts.size()> all;
     tbb::parallel_for(std::size_t{0}, 3 * kParts.size(), [&](std::size_t i) {
         const std::size_t c = i % 3;
-        all[i / 3][c] = fit_of(samples, static_cast<int>(c), kParts[i / 3], is_nonnegative);
+        all[i / 3][c] = fit_of(samples, static_cast<int>(c), kParts[i / 3], method);
     });
     const auto error = [](const ColourFits& fits) {
         return fits[0].error + fits[1].error + fits[2].error;
@@ -120,9 +120,11 @@ ColourFits best_fits(const CurveFitSamples& samples, bool is_nonnegative) {
         [&](const ColourFits& a, const ColourFits& b) { return error(a) < error(b); });
 }
 
-CurveFactorisation factorise_curves(const BrdfLobes& lobes, bool is_nonnegative) {
+}  // namespace
+
+CurveFactorisation factorise_curves(const BrdfLobes& lobes, CurveMethod method) {
     const CurveFitSamples samples = curve_fit_samples(lobes, kFitSamples, kFitShift);
-    const ColourFits colours = best_fits(samples, is_nonnegative);
+    const ColourFits colours = best_fits(samples, method);
     Imath::V3f diffuse;
     for (std::size_t c = 0; c < 3; ++c) {
         diffuse[static_cast<int>(c)] =
@@ -139,27 +141,10 @@ CurveFactorisation factorise_curves(const BrdfLobes& lobes, bool is_nonnegative)
             .unmeasured_count = 0};
 }
 
-CurveFactorisation with_unmeasured(CurveFactorisation factorisation, const MerlBrdf& measured) {
+CurveFactorisation factorise_curves(const MerlBrdf& measured, CurveMethod method) {
+    CurveFactorisation factorisation = factorise_curves(lobes_of(measured), method);
     factorisation.unmeasured_count = measured.unmeasured_count();
     return factorisation;
-}
-
-}  // namespace
-
-CurveFactorisation homomorphic_curves(const BrdfLobes& lobes) {
-    return factorise_curves(lobes, false);
-}
-
-CurveFactorisation homomorphic_curves(const MerlBrdf& measured) {
-    return with_unmeasured(homomorphic_curves(lobes_of(measured)), measured);
-}
-
-CurveFactorisation nonnegative_curves(const BrdfLobes& lobes) {
-    return factorise_curves(lobes, true);
-}
-
-CurveFactorisation nonnegative_curves(const MerlBrdf& measured) {
-    return with_unmeasured(nonnegative_curves(lobes_of(measured)), measured);
 }
 
 CurveErrors curve_errors(const Imath::V3f& diffuse,

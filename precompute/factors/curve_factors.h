@@ -21,13 +21,23 @@
 
 #include "precompute/factors/brdf_lobes.h"
 #include "precompute/factors/merl_brdf.h"
+#include "protocol/base/text/name_table.h"
 #include "protocol/curve/curve_brdf.h"
 
 #include <Imath/ImathVec.h>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace relume::factors {
+
+enum class CurveMethod : std::uint8_t { homomorphic, nonnegative };
+
+// As options and reports spell them.
+inline constexpr text::NameTable<CurveMethod, 2> kCurveMethodNames({{
+    {CurveMethod::homomorphic, "homomorphic"},
+    {CurveMethod::nonnegative, "nmf"},
+}});
 
 // Directions are judged whose cosine is at least this: closer to the horizon nothing can be
 // measured, and many formulas grow without bound.
@@ -59,10 +69,8 @@ struct CurveFactorisation {
 
 // Each throws FactorError for a BRDF that is black, or not finite somewhere. Deterministic;
 // seconds, and 100 MiB.
-[[nodiscard]] CurveFactorisation homomorphic_curves(const BrdfLobes& lobes);
-[[nodiscard]] CurveFactorisation homomorphic_curves(const MerlBrdf& measured);
-[[nodiscard]] CurveFactorisation nonnegative_curves(const BrdfLobes& lobes);
-[[nodiscard]] CurveFactorisation nonnegative_curves(const MerlBrdf& measured);
+[[nodiscard]] CurveFactorisation factorise_curves(const BrdfLobes& lobes, CurveMethod method);
+[[nodiscard]] CurveFactorisation factorise_curves(const MerlBrdf& measured, CurveMethod method);
 
 // Throws as they do.
 [[nodiscard]] CurveErrors curve_errors(const Imath::V3f& diffuse,

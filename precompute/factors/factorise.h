@@ -8,6 +8,7 @@
 
 #include "precompute/factors/brdf_lobes.h"
 #include "precompute/factors/light_waves.h"
+#include "protocol/base/text/name_table.h"
 #include "protocol/brdf/factored_brdf.h"
 
 #include <cstddef>
@@ -22,6 +23,12 @@ enum class Method : std::uint8_t {
     svd,  // the least error; factors and the sum may be negative
     nmf,  // nothing is negative
 };
+
+// As options and reports spell them.
+inline constexpr text::NameTable<Method, 2> kMethodNames({{
+    {Method::svd, "svd"},
+    {Method::nmf, "nmf"},
+}});
 
 struct FactorOptions {
     // What a report tells and a target may ask for. A fixed number of terms may be higher.
@@ -50,8 +57,8 @@ struct Factorisation {
     double negative_norm = 0;
 };
 
-// Chooses the fewest terms that meet the target, at most 10 and no torn pair; where none do, the
-// fewest from which all further ones up to 10 would take less than a tenth of the error. A
+// Chooses the fewest terms that meet the target, at most 10 and no torn pair; where none do,
+// the fewest from which all further ones up to 10 would take less than a tenth of the error. A
 // constant BRDF gets its one term exactly. Throws FactorError for options out of range, and for
 // NMF of a highlight that 129 rows cannot tell. Deterministic; at most 450 MiB, on all cores.
 [[nodiscard]] Factorisation factorise(std::string name,

@@ -53,7 +53,7 @@ bool CurveSampler::draw(Way way, std::uint32_t index, std::uint64_t key) {
 
 bool CurveSampler::reflects() {
     diffuse_ = point_.diffuse.times_cosine(wi_.z, point_.wo.z);
-    curve_ = edited_.brdf.quotient(edited_.curve, wi_, point_.wo) * wi_.z;
+    curve_ = edited_.brdf.quotient(edited_.curve, wi_, point_.wo) * edited_.tint * wi_.z;
     return !is_black(diffuse_) || !is_black(curve_);
 }
 

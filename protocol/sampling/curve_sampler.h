@@ -38,6 +38,7 @@ struct CurvePoint {
 struct CurveOfBrdf {
     const curve::CurveBrdf& brdf;
     std::size_t curve = 0;
+    Imath::V3f tint{1, 1, 1};  // what scales the curve at this place
 
     [[nodiscard]] curve::CurveAngle angle() const { return brdf.curves()[curve].angle; }
 };

@@ -81,7 +81,7 @@ nlohmann::json json_from_parameters(const BakeParameters& p) {
         object["vertices"] = p.vertices;
         object["target_error"] = p.target_error;
         object["terms"] = p.terms;
-        object["factors"] = p.factor_method == factors::Method::svd ? "svd" : "nmf";
+        object["factors"] = factors::kMethodNames.name(p.factor_method);
     }
     return object;
 }

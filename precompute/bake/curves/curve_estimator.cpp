@@ -1,11 +1,12 @@
 #include "precompute/bake/curves/curve_estimator.h"
 
+#include "precompute/bake/curves/point_brdf.h"
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 namespace relume::bake {
 namespace {
@@ -39,8 +40,15 @@ void CurveEstimator::estimate(const ReceiverSurface& surface,
                               CurveShares& shares,
                               std::uint64_t& rays) const {
     shares = {};
-    const sampling::CurveOfBrdf edited{.brdf = material.brdf, .curve = material.curve};
     const std::size_t points = std::max<std::size_t>(surface.turns.size(), 1);
+    const auto point_of = [&](std::size_t i) -> const scene::SurfacePoint& {
+        return surface.turns.empty() ? surface.point : surface.turns[i];
+    };
+    std::vector<PointBrdf> brdfs;
+    brdfs.reserve(points);
+    for (std::size_t i = 0; i < points; ++i) {
+        brdfs.emplace_back(material, point_of(i).bsdf);
+    }
     std::array<std::uint32_t, sampling::kWays.size()> counts{};
     for (std::size_t way = 0; way < counts.size(); ++way) {
         // As many from each of the points, so that all of them count alike.
@@ -55,11 +63,11 @@ void CurveEstimator::estimate(const ReceiverSurface& surface,
         const std::uint64_t key = transport::mix_bits(surface_key) + 16 * std::uint64_t{number};
         const std::uint32_t first = place.run * samples_ * sampling::kDirectionsOfWay[number];
         for (std::uint32_t i = 0; i < counts[number]; ++i) {
-            const scene::SurfacePoint& point =
-                surface.turns.empty() ? surface.point : surface.turns[i % points];
+            const scene::SurfacePoint& point = point_of(i % points);
             const Imath::V3f origin =
                 surface.turns.empty() ? surface.origins[i % kPacketSize] : offset_origin(point);
             const sampling::CurvePoint lit = curve_point(point, material);
+            const sampling::CurveOfBrdf edited = brdfs[i % points].edited();
             sampling::CurveSampler sampler(lit, edited, radiance_.light(), counts);
             if (sampler.draw(way, first + i, key) && sampler.reflects()) {
                 sampler.add(radiance_.incoming(origin, sampler.direction(),

@@ -75,14 +75,29 @@ std::size_t parameter_from(const std::string& option,
                     text::expected_name(std::string(name), known, "parameters")));
 }
 
-// A product of curves and a diffuse part [McCool01].
-StatedModel factored(const MeasuredBrdf& measured) {
-    factors::CurveFactorisation found = factors::homomorphic_curves(measured.brdf);
+nlohmann::json json_from(const factors::CurveErrors& errors) {
+    return {{"relative_l2", errors.relative_l2}, {"logarithmic", errors.logarithmic}};
+}
+
+// A product of curves and a diffuse part. The notes tell the errors of both methods, so that
+// whoever bakes can choose.
+StatedModel factored(const MeasuredBrdf& measured, factors::CurveMethod method) {
+    using factors::CurveMethod;
+    const CurveMethod other = method == CurveMethod::homomorphic ? CurveMethod::nonnegative
+                                                                 : CurveMethod::homomorphic;
+    const auto name = [](CurveMethod of) {
+        return std::string(factors::kCurveMethodNames.name(of));
+    };
+    factors::CurveFactorisation found = factors::factorise_curves(measured.brdf, method);
+    const factors::CurveErrors otherwise =
+        factors::factorise_curves(measured.brdf, other).errors;
     return {.brdf = std::move(found.brdf),
             .albedo = found.diffuse,
             .notes = {{"measured", measured.file.filename().string()},
-                      {"error_relative_l2", found.errors.relative_l2},
-                      {"error_logarithmic", found.errors.logarithmic},
+                      {"factors", name(method)},
+                      {"errors",
+                       {{name(method), json_from(found.errors)},
+                        {name(other), json_from(otherwise)}}},
                       {"unmeasured", found.unmeasured_count}}};
 }
 
@@ -136,8 +151,8 @@ curve::CurveBrdf curve_brdf_of(const scene::Material& material) {
                     material.name));
 }
 
-StatedModels::StatedModels(const CurveRequest& request,
-                           std::span<const MeasuredBrdf> measured) {
+StatedModels::StatedModels(const CurveRequest& request, std::span<const MeasuredBrdf> measured)
+    : factors_(request.factors) {
     for (const std::string& text : request.models) {
         const std::size_t equals = text.find('=');
         if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
@@ -160,12 +175,12 @@ void StatedModels::add(const std::string& material, Stated stated) {
 StatedModel StatedModels::take(const scene::Material& material) {
     const auto found = by_material_.find(material.name);
     if (found == by_material_.end()) {
-        return {.brdf = curve_brdf_of(material)};
+        return {.brdf = curve_brdf_of(material), .is_of_scene = true};
     }
     const Stated stated = std::move(found->second);
     by_material_.erase(found);
     if (const auto* measured = std::get_if<const MeasuredBrdf*>(&stated)) {
-        return factored(**measured);
+        return factored(**measured, factors_);
     }
     const std::string& text = std::get<std::string>(stated);
     return {.brdf =

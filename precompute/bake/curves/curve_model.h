@@ -19,6 +19,7 @@ namespace relume::bake {
 
 struct StatedModel {
     curve::CurveBrdf brdf;
+    bool is_of_scene = false;
     std::optional<Imath::V3f> albedo{};
     nlohmann::json notes = nlohmann::json::object();
 };
@@ -41,6 +42,7 @@ class StatedModels {
     using Stated = std::variant<std::string, const MeasuredBrdf*>;
     void add(const std::string& material, Stated stated);
 
+    factors::CurveMethod factors_;
     std::map<std::string, Stated> by_material_;
 };
 

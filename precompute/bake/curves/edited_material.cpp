@@ -1,6 +1,7 @@
 #include "precompute/bake/curves/edited_material.h"
 
 #include "precompute/bake/curves/curve_model.h"
+#include "precompute/bake/curves/point_brdf.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/names.h"
 #include "protocol/base/text/near_names.h"
@@ -126,8 +127,13 @@ std::vector<EditedMaterial> edited_materials(const scene::Scene& scene,
                              .id = id_from_name(material.name, taken),
                              .brdf = std::move(stated.brdf),
                              .curve = index,
+                             .is_of_scene = stated.is_of_scene,
                              .albedo = stated.albedo,
                              .notes = std::move(stated.notes)});
+        const std::string left_out = left_out_by_curve(material, materials.back());
+        if (!left_out.empty()) {
+            materials.back().notes["texture_left_out"] = left_out;
+        }
     }
     models.require_all_taken();
     return materials;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "precompute/bake/base/measured_brdf.h"
+#include "precompute/factors/curve_factors.h"
 #include "precompute/scene/scene.h"
 #include "protocol/curve/curve_brdf.h"
 #include "protocol/transport/curves_section.h"
@@ -22,9 +23,11 @@ struct EditedMaterial {
     std::string id;              // by which rooms call it
     curve::CurveBrdf brdf;       // its specular part
     std::size_t curve = 0;       // which of the BRDF's curves
+    // The BRDF is the scene's, whose textures change it from point to point (point_brdf.h).
+    bool is_of_scene = false;
     // Of a measured one: the albedo of its diffuse part, in place of the scene's.
     std::optional<Imath::V3f> albedo{};
-    nlohmann::json notes = nlohmann::json::object();  // what factoring a measured BRDF costs
+    nlohmann::json notes = nlohmann::json::object();  // what measured BRDFs and textures lose
 
     [[nodiscard]] curve::CurveAngle angle() const { return brdf.curves()[curve].angle; }
 };
@@ -33,6 +36,8 @@ struct EditedMaterial {
 struct CurveRequest {
     std::vector<std::string> edits{};   // MATERIAL or MATERIAL.CURVE
     std::vector<std::string> models{};  // MATERIAL=MODEL:parameter=value,…; a colour is r/g/b
+    // How measured BRDFs become curves.
+    factors::CurveMethod factors = factors::CurveMethod::homomorphic;
 };
 
 // In the order of the request; measured BRDFs are factored. Throws program::UsageError for a
@@ -45,8 +50,9 @@ struct CurveRequest {
     const CurveRequest& request,
     std::span<const MeasuredBrdf> measured = {});
 
-// The BRDF's specular part as curves: of GGX and Phong exactly as the scene has them, but for
-// textures, whose factors count alone. Throws program::UsageError for Lambert, which has none.
+// The BRDF's specular part as curves: of GGX and Phong exactly as the scene has them where
+// textures and colours of vertices are white. Throws program::UsageError for Lambert, which has
+// none.
 [[nodiscard]] curve::CurveBrdf curve_brdf_of(const scene::Material& material);
 
 // As a manifest has it.

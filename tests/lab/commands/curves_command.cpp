@@ -4,6 +4,7 @@
 #include "tests/lab/curves/curve_bases.h"
 #include "tests/lab/curves/curve_convergence.h"
 #include "tests/lab/curves/curve_room.h"
+#include "tests/lab/curves/measured_curves.h"
 #include "tests/lab/scenes/lab_scenes.h"
 #include "tests/support/scene_cache.h"
 
@@ -129,6 +130,17 @@ json bases_of(const transport::Transport& transport) {
     return rows;
 }
 
+json factors_of_measured() {
+    json rows = json::array();
+    for (const MeasuredCurves& found : measured_curves()) {
+        rows.push_back({{"material", found.material},
+                        {"method", factors::kCurveMethodNames.name(found.method)},
+                        {"relative_l2", found.errors.relative_l2},
+                        {"logarithmic", found.errors.logarithmic}});
+    }
+    return rows;
+}
+
 int run(const Options& options) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     options.threads);
@@ -171,11 +183,13 @@ int run(const Options& options) {
                              {"curves", curves}};
     const json convergence = convergence_of(scene);
     const json bases = bases_of(transport);
+    const json measured = factors_of_measured();
     if (options.as_json) {
         fmt::print("{}\n", json{{"configuration", configuration},
                                 {"figures", figures},
                                 {"convergence", convergence},
-                                {"bases", bases}}
+                                {"bases", bases},
+                                {"measured", measured}}
                                .dump(2));
         return 0;
     }
@@ -200,6 +214,12 @@ int run(const Options& options) {
                    row["terms"].get<int>(), row["daubechies4"].get<double>(),
                    row["haar"].get<double>(), row["splines"].get<double>());
     }
+    fmt::print("\n| measured | method | relative L2 | logarithmic |\n|---|---|---|---|\n");
+    for (const json& row : measured) {
+        fmt::print("| {} | {} | {:.3g} | {:.3g} |\n", row["material"].get<std::string>(),
+                   row["method"].get<std::string>(), row["relative_l2"].get<double>(),
+                   row["logarithmic"].get<double>());
+    }
     return 0;
 }
 
@@ -212,7 +232,8 @@ Command add_curves_command(CLI::App& program) {
     app->add_option("--scene", options->scene, "built-in scene")->capture_default_str();
     app->add_option("--edit", options->edit, "its materials, as relume-bake takes them")
         ->capture_default_str();
-    app->add_option("--environment", options->environment, "file, or name of one made by formula")
+    app->add_option("--environment", options->environment,
+                    "file, or name of one made by formula")
         ->capture_default_str();
     app->add_option("--side", options->side, "of images, in pixels")->capture_default_str();
     app->add_option("--threads", options->threads, "of all that is timed")

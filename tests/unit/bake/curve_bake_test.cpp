@@ -152,11 +152,15 @@ TEST_F(CurveBake, TakesAMeasuredMaterialAsCurves) {
     ASSERT_EQ(of_cloth.materials.size(), 1U);
     EXPECT_EQ(of_cloth.materials[0].brdf.model(), curve::CurveModel::measured);
     EXPECT_TRUE(of_cloth.materials[0].albedo);
-    EXPECT_LT(of_cloth.materials[0].notes.at("error_relative_l2").get<double>(), 0.1);
+    const nlohmann::json& errors = of_cloth.materials[0].notes.at("errors");
+    EXPECT_LT(errors.at("homomorphic").at("relative_l2").get<double>(), 0.1);
     const auto path = scratch_.path() / "e.relume";
     bake_curves(scene_, parameters_, of_cloth, path, {}, measured);
     const std::string text = text_from_description(describe(path));
-    EXPECT_NE(text.find("cloth.binary in curves of cloth"), std::string::npos) << text;
+    EXPECT_NE(text.find("cloth.binary in curves of cloth, by homomorphic"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("error by nmf: L2"), std::string::npos) << text;
+    EXPECT_NE(text.find("of its values are negative"), std::string::npos) << text;
     EXPECT_THROW((void)edited_materials(scene_, {.edits = {"pearl"}}, measured),
                  program::UsageError);
 }
