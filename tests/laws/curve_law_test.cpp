@@ -7,9 +7,9 @@
 #include "protocol/basis/cubemap_projection.h"
 #include "protocol/curve/curve_shape.h"
 #include "tests/laws/bake_estimate.h"
+#include "tests/laws/curve_reference.h"
 #include "tests/laws/law_light.h"
 #include "tests/laws/picture_comparison.h"
-#include "tests/support/reference_tracer/geometry.h"
 #include "tests/support/reference_tracer/random.h"
 #include "tests/support/reference_tracer/sky.h"
 #include "tests/support/sample_moments.h"
@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -120,25 +121,32 @@ void expect_same(const char* name,
                       << write_evidence(name, ours, truth, comparison);
 }
 
+// Curves as baked, beside the reference tracer.
+void expect_shown_as_the_scene(const char* name,
+                               const scene::Scene& scene,
+                               const bake::BakeParameters& parameters,
+                               const std::vector<EditedMaterial>& materials) {
+    const std::uint32_t n = parameters.face_resolution;
+    const auto texels = cubemap_from_function(n, sun_and_gradient);
+    const Estimate ours = estimate_from_curves(scene, parameters, frozen_light_of(texels, n),
+                                               materials, curves_as_baked(materials));
+    constexpr std::uint32_t kSamples = 2048;
+    const auto truth = reference::trace(scene, reference::Sky::from_cubemap(n, texels),
+                                        {.width = kSide,
+                                         .height = kSide,
+                                         .samples = kSamples,
+                                         .bounces = parameters.bounces,
+                                         .seed = 7,
+                                         .filter = reference::PixelFilter::centre});
+    expect_same(name, ours, truth, kSamples);
+}
+
 TEST(CurveLaw, CurvesAsBakedShowTheSceneWithItsInterreflection) {
     const scene::Scene scene = earrings();
     const bake::BakeParameters parameters = law_parameters(2);
-    const auto texels = cubemap_from_function(parameters.face_resolution, sun_and_gradient);
     const auto materials = bake::edited_materials(
         scene, {.edits = {"pearl", "post.fresnel", "cloth"}, .models = {}});
-    const Estimate ours = estimate_from_curves(
-        scene, parameters, frozen_light_of(texels, parameters.face_resolution), materials,
-        curves_as_baked(materials));
-    constexpr std::uint32_t kSamples = 2048;
-    const auto truth = reference::trace(
-        scene, reference::Sky::from_cubemap(parameters.face_resolution, texels),
-        {.width = kSide,
-         .height = kSide,
-         .samples = kSamples,
-         .bounces = parameters.bounces,
-         .seed = 7,
-         .filter = reference::PixelFilter::centre});
-    expect_same("curves-as-baked", ours, truth, kSamples);
+    expect_shown_as_the_scene("curves-as-baked", scene, parameters, materials);
 }
 
 // Any curve: jagged, with zeros, coloured.
@@ -155,83 +163,71 @@ Curve random_curve(const Curve& of, reference::Random& random) {
     return curve;
 }
 
-// The light at the middle of every pixel by drawing directions from the sky and from the
-// scene's own reflection; direct light alone.
-reference::TracedImage reflect_with_curves(const scene::Scene& scene,
-                                           const reference::Sky& sky,
-                                           const std::vector<curve::CurveBrdf>& by_material,
-                                           std::uint32_t samples) {
-    const reference::Geometry geometry(scene);
-    const scene::Camera camera(scene.camera, kSide, kSide);
-    const bake::RayCaster caster(scene);
-    reference::TracedImage image{kSide, kSide, {}, {}};
-    image.mean.resize(std::size_t{kSide} * kSide);
-    image.variance.resize(image.mean.size());
-    tbb::parallel_for(std::size_t{0}, image.mean.size(), [&](std::size_t pixel) {
-        reference::Random random(pixel * 0x9e3779b1U + 3);
-        const Imath::V3f along = camera.direction_from_pixel(
-            static_cast<float>(pixel % kSide) + 0.5F, static_cast<float>(pixel / kSide) + 0.5F);
-        const Imath::V3d direction = Imath::V3d(along).normalized();
-        const auto surface = geometry.surface(Imath::V3d(camera.eye()), direction);
-        const auto hit = caster.closest_hit(camera.eye(), along);
-        SampleMoments<Imath::V3d> moments(Imath::V3d(0, 0, 0));
-        for (std::uint32_t i = 0; i < samples; ++i) {
-            Imath::V3d value(0, 0, 0);
-            if (surface && hit) {
-                const reference::Reflection& reflection = surface->reflection;
-                const Imath::V3d wo = -direction;
-                const Imath::V3d wi = random.uniform() < 0.5 ? sky.sampled(random).direction
-                                                             : reflection.sampled(wo, random);
-                const double cosine = wi.dot(reflection.normal);
-                if (cosine > 0 && wi.dot(surface->face_normal) > 0 &&
-                    geometry.sees_sky(geometry.origin_beside(*surface, wi), wi)) {
-                    reference::Reflection diffuse = reflection;
-                    diffuse.specular = Imath::V3d(0, 0, 0);
-                    diffuse.grazing = 0;
-                    const scene::Frame frame =
-                        scene::Frame::from_normal(Imath::V3f(reflection.normal));
-                    const auto& brdf = by_material[scene.meshes[hit->mesh].material];
-                    const Imath::V3d specular(brdf.evaluate(frame.to_local(Imath::V3f(wi)),
-                                                            frame.to_local(Imath::V3f(wo))));
-                    const double density =
-                        0.5 * sky.density(wi) + 0.5 * reflection.density(wi, wo);
-                    value = (diffuse.value(wi, wo) + specular) * sky.radiance(wi) *
-                            (cosine / density);
-                }
-            }
-            moments.add(value);
-        }
-        image.mean[pixel] = moments.mean();
-        image.variance[pixel] = moments.variance_of_mean();
-    });
-    return image;
-}
-
-TEST(CurveLaw, AnyCurvesShowWhatABrdfOfThoseCurvesReflects) {
+// Of a bake whose curves are replaced by jagged ones, beside the reference.
+void expect_jagged_curves_are_reflected(const char* name,
+                                        const bake::CurveRequest& request,
+                                        std::uint32_t bounces,
+                                        std::uint64_t seed) {
     const scene::Scene scene = earrings();
-    const bake::BakeParameters parameters = law_parameters(0);
+    const bake::BakeParameters parameters = law_parameters(bounces);
     const auto texels = cubemap_from_function(parameters.face_resolution, sun_and_gradient);
-    const auto materials = bake::edited_materials(
-        scene, {.edits = {"cloth", "post.fresnel", "pearl"},
-                .models = {"cloth=ashikhmin-shirley:rs=0.3/0.1/0.2,nu=20,nv=5",
-                           "post=cook-torrance:sigma=0.2,n=0.2/0.4/1.3,e=3/2.5/2"}});
-    reference::Random random(11);
+    const auto materials = bake::edited_materials(scene, request);
+    reference::Random random(seed);
     std::vector<Curve> curves;
-    std::vector<curve::CurveBrdf> by_material(scene.materials.size(),
-                                              curve::CurveBrdf::phong({0, 0, 0}, 1));
+    std::map<std::uint32_t, curve::CurveBrdf> edited;
     for (const EditedMaterial& material : materials) {
         curves.push_back(random_curve(material.brdf.curves()[material.curve].curve, random));
-        by_material[material.material] =
-            material.brdf.with_curve(material.curve, curves.back());
+        edited.emplace(material.material,
+                       material.brdf.with_curve(material.curve, curves.back()));
     }
     const Estimate ours = estimate_from_curves(
         scene, parameters, frozen_light_of(texels, parameters.face_resolution), materials,
         curves);
     constexpr std::uint32_t kSamples = 4096;
     const auto truth = reflect_with_curves(
-        scene, reference::Sky::from_cubemap(parameters.face_resolution, texels), by_material,
-        kSamples);
-    expect_same("any-curves", ours, truth, kSamples);
+        scene, reference::Sky::from_cubemap(parameters.face_resolution, texels), edited,
+        {.side = kSide, .samples = kSamples, .bounces = bounces});
+    expect_same(name, ours, truth, kSamples);
+}
+
+TEST(CurveLaw, AnyCurvesShowWhatABrdfOfThoseCurvesReflects) {
+    expect_jagged_curves_are_reflected(
+        "any-curves",
+        {.edits = {"cloth", "post.fresnel", "pearl"},
+         .models = {"cloth=ashikhmin-shirley:rs=0.3/0.1/0.2,nu=20,nv=5",
+                    "post=cook-torrance:sigma=0.2,n=0.2/0.4/1.3,e=3/2.5/2"}},
+        0, 11);
+}
+
+TEST(CurveLaw, AnyCurvesShowInterreflectionOfMaterialsAsTheyWere) {
+    expect_jagged_curves_are_reflected(
+        "any-curves-one-bounce",
+        {.edits = {"post", "cloth.fresnel", "pearl"},
+         .models = {"post=cook-torrance:sigma=0.2,n=0.2/0.4/1.3,e=3/2.5/2"}},
+        1, 12);
+    expect_jagged_curves_are_reflected("any-curves-two-bounces",
+                                       {.edits = {"pearl.fresnel", "cloth"},
+                                        .models = {"cloth=phong:ks=0.4/0.2/0.3,exponent=9"}},
+                                       2, 13);
+}
+
+// Where the colour of a material varies, the light that its curves scale has the colour of the
+// point.
+TEST(CurveLaw, AMaterialWhoseColoursVaryShowsThem) {
+    scene::Scene scene = earrings();
+    scene.materials[0].metallic = 1;
+    scene.materials[0].roughness = 0.4F;
+    for (scene::Mesh& mesh : scene.meshes) {
+        mesh.colours.clear();
+        for (const Imath::V3f& position : mesh.positions) {
+            const float stripe = std::sin(900 * position.x) > 0 ? 1.0F : 0.2F;
+            mesh.colours.emplace_back(1, stripe, 0.5F * stripe);
+        }
+    }
+    const bake::BakeParameters parameters = law_parameters(1);
+    const auto materials = bake::edited_materials(
+        scene, {.edits = {"pearl", "post.fresnel", "cloth"}, .models = {}});
+    expect_shown_as_the_scene("curves-of-varied-colour", scene, parameters, materials);
 }
 
 // Gold for silver by its curve alone is what a bake with gold shows.

@@ -1,8 +1,6 @@
 #include "tests/support/reference_tracer/tracer.h"
 
 #include "precompute/scene/camera.h"
-#include "tests/support/reference_tracer/geometry.h"
-#include "tests/support/reference_tracer/random.h"
 #include "tests/support/sample_moments.h"
 
 #include <tbb/parallel_for.h>
@@ -114,6 +112,25 @@ TracedImage trace(const scene::Scene& scene, const Sky& sky, const TraceOptions&
         image.variance[pixel] = radiance.variance_of_mean();
     });
     return image;
+}
+
+V3d incoming(const Geometry& geometry,
+             const Sky& sky,
+             std::uint32_t events,
+             const V3d& origin,
+             const V3d& direction,
+             Random& random) {
+    if (geometry.sees_sky(origin, direction)) {
+        return sky.radiance(direction);
+    }
+    V3d radiance(0, 0, 0);
+    if (events > 0) {
+        follow_path(geometry, sky, events - 1, origin, direction, random,
+                    [&](const V3d& from, const V3d& weight) {
+                        radiance += weight * sky.radiance(from);
+                    });
+    }
+    return radiance;
 }
 
 void trace_arrivals(

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "precompute/scene/scene.h"
+#include "tests/support/reference_tracer/geometry.h"
+#include "tests/support/reference_tracer/random.h"
 #include "tests/support/reference_tracer/sky.h"
 
 #include <Imath/ImathVec.h>
@@ -38,6 +40,15 @@ struct TracedImage {
 [[nodiscard]] TracedImage trace(const scene::Scene& scene,
                                 const Sky& sky,
                                 const TraceOptions& options);
+
+// One sample of the radiance that a ray brings: the sky's where it leaves the scene, else what
+// reaches it by one path of at most `events` scattering events.
+[[nodiscard]] Imath::V3d incoming(const Geometry& geometry,
+                                  const Sky& sky,
+                                  std::uint32_t events,
+                                  const Imath::V3d& origin,
+                                  const Imath::V3d& direction,
+                                  Random& random);
 
 // What the paths of a pixel bring: radiance from `direction` adds `weight` times itself to the
 // pixel. The paths and their weights are those of trace() under `guide`, whose radiance is not
