@@ -149,6 +149,41 @@ TEST_F(CurveEdits, NullTakesTheEditBack) {
     EXPECT_TRUE(state_.materials.empty());
 }
 
+TEST_F(CurveEdits, SamplesThatAreNoCurveAreRefusedAndLoseNothing) {
+    const wire::MaterialEdit before = edit("pearl", {{"roughness", 0.3}});
+    const auto samples = [](std::size_t count, const json& last) {
+        json list(count, json{1, 1, 1});
+        list.back() = last;
+        return json{{"samples", list}};
+    };
+    const json one{1, 1, 1};
+    for (const json& bad :
+         {samples(255, one), samples(257, one), samples(256, {1, 1, -1e-3}),
+          samples(256, {1e30, 1, 1}), samples(256, {1, 1.001 * curve::kMostCurveValue, 1}),
+          samples(256, {1, nullptr, 1}), samples(256, {1, 1, "1"}), samples(256, {1, 1}),
+          samples(256, nullptr), samples(256, 1), json{{"samples", nullptr}},
+          json{{"samples", json::array()}}, json{{"samples", 1}}}) {
+        const json patch{{"materials", {{"pearl", bad}}}};
+        try {
+            wire::apply_patch(state_, with_samples(patch, state_.materials, curves_), {});
+            ADD_FAILURE() << "taken: " << bad.dump();
+        } catch (const wire::WireError& error) {
+            EXPECT_EQ(std::string(error.path()).rfind("/materials/pearl/samples", 0), 0U)
+                << error.path();
+        }
+        EXPECT_EQ(state_.materials.at("pearl"), before);
+    }
+    // Zeros, jumps and the highest value there is are curves.
+    json jagged = json::array();
+    for (int k = 0; k < 256; ++k) {
+        const float value = k % 2 == 0 ? 0 : curve::kMostCurveValue;
+        jagged.push_back({value, value, value});
+    }
+    EXPECT_EQ(edit("pearl", {{"samples", jagged}}).samples.numbers[3],
+              double{curve::kMostCurveValue});
+    edit("pearl", {{"samples", std::vector<std::vector<double>>(256, {0, 0, 0})}});
+}
+
 TEST_F(CurveEdits, WhatCannotBeIsRefusedByItsPath) {
     EXPECT_EQ(refusal({{"perl", {{"tint", {1, 1, 1}}}}}),
               "/materials/perl found perl expected one of the materials; did you mean pearl?");
