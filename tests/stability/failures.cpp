@@ -14,7 +14,8 @@ std::span<const Failure> failures() {
                                 sh_ringing(),       negative_factors(),  grazing_angles(),
                                 faded_highlights(), t_junctions(),       shadow_leaks(),
                                 vertex_in_wall(),   creases(),           odd_cameras(),
-                                moving_view()};
+                                moving_view(),      curve_ends(),        curve_jumps(),
+                                rim_of_pearls(),    narrow_highlights()};
     return all;
 }
 

@@ -28,5 +28,10 @@ namespace relume::stability {
 [[nodiscard]] Failure creases();
 [[nodiscard]] Failure odd_cameras();
 [[nodiscard]] Failure moving_view();
+// Of curves that are edited: in curves/.
+[[nodiscard]] Failure curve_ends();
+[[nodiscard]] Failure curve_jumps();
+[[nodiscard]] Failure rim_of_pearls();
+[[nodiscard]] Failure narrow_highlights();
 
 }  // namespace relume::stability
