@@ -12,8 +12,10 @@ namespace relume::cli {
 namespace {
 
 constexpr std::uint32_t kSamples = curve::kCurveSamples;
-// Of a stroke, in samples.
-constexpr std::uint32_t kNarrowest = 16;
+// Of a stroke, in samples. It begins with two, and every edit adds one or more: what changes
+// nothing would not be answered by an image of its own.
+constexpr std::uint32_t kBegun = 2;
+constexpr std::uint32_t kNarrowest = kBegun + CurveDrag::kEditsPerStroke;
 constexpr std::uint32_t kWidest = 96;
 constexpr double kMostStops = 2;
 
@@ -39,12 +41,12 @@ nlohmann::json CurveDrag::next() {
     }
     edits_ = (edits_ + 1) % kEditsPerStroke;
     const std::uint32_t done = edits_ == 0 ? kEditsPerStroke : edits_;
-    const std::uint32_t drawn = std::max(2U, count_ * done / kEditsPerStroke);
+    const std::uint32_t drawn = kBegun + (count_ - kBegun) * done / kEditsPerStroke;
     const wire::EditableMaterial& material = materials_[material_];
     const wire::NumberTable& baked = material.baked.samples;
     nlohmann::json values = nlohmann::json::array();
     for (std::uint32_t i = 0; i < drawn; ++i) {
-        const double way = static_cast<double>(i) / (count_ - 1);
+        const double way = static_cast<double>(i + 1) / (count_ + 1);
         const double factor = std::pow(factor_, std::sin(std::numbers::pi * way));
         nlohmann::json rgb = nlohmann::json::array();
         for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -75,6 +75,23 @@ TEST(CurveDrag, StaysNearTheCurveAsBaked) {
     }
 }
 
+// An edit that changes nothing is answered by no image, and would be timed until the next one.
+TEST(CurveDrag, EveryEditChangesTheCurve) {
+    const wire::EditableMaterial pearl = material("pearl", 0.1);
+    CurveDrag drag({pearl}, 4);
+    curve::Curve before;
+    for (std::size_t k = 0; k < curve::kCurveSamples; ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            before.rgb[c][k] = static_cast<float>(pearl.baked.samples.numbers[3 * k + c]);
+        }
+    }
+    for (int i = 0; i < 400; ++i) {
+        const curve::Curve after = curve::with_stroke(before, stroke_of(drag.next(), "pearl"));
+        EXPECT_NE(after, before) << i;
+        before = after;
+    }
+}
+
 TEST(CurveDrag, TheSameSeedDrawsTheSame) {
     CurveDrag a({material("pearl", 0.1)}, 5);
     CurveDrag b({material("pearl", 0.1)}, 5);
