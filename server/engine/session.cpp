@@ -292,6 +292,7 @@ void Session::advance_full_products(std::span<SessionStep* const> steps, std::si
     }
     PerSession<FullProduct*> products;
     std::uint64_t slice_bytes = 0;
+    double slice_milliseconds = 0;
     double ceiling = std::numeric_limits<double>::infinity();
     for (const SessionStep* step : steps) {
         products.push_back(&step->session->full_product_);
@@ -300,6 +301,10 @@ void Session::advance_full_products(std::span<SessionStep* const> steps, std::si
                                       {.budget = step->budget,
                                        .sessions = sessions,
                                        .ceiling_milliseconds = step->ceiling_milliseconds}));
+        slice_milliseconds =
+            std::max(slice_milliseconds, std::min(step->budget.milliseconds.value_or(
+                                                      std::numeric_limits<double>::infinity()),
+                                                  step->ceiling_milliseconds));
         ceiling = std::min(ceiling, step->ceiling_milliseconds);
     }
     // Those that begin do so where another stands, to be swept together.
@@ -319,14 +324,22 @@ void Session::advance_full_products(std::span<SessionStep* const> steps, std::si
             return step->session->target_is_new_ && step->session->full_product_.running();
         });
     };
+    // A byte may cost ten times as much in one part of the image as in another. So a slice is
+    // taken in parts, and none begins when the slice's time is over.
+    constexpr std::uint64_t kParts = 8;
+    const auto slice_goes_on = [&] {
+        return bytes < slice_bytes * steps.size() &&
+               stopwatch.milliseconds() < slice_milliseconds;
+    };
     do {
+        bytes += FullProduct::advance_together(std::span(products.data(), products.size()),
+                                               slice_bytes / kParts);
         products.erase(
             std::remove_if(products.begin(), products.end(),
                            [](const FullProduct* product) { return !product->running(); }),
             products.end());
-        bytes += FullProduct::advance_together(std::span(products.data(), products.size()),
-                                               slice_bytes);
-    } while (somebody_waits_for_all() && stopwatch.milliseconds() < ceiling);
+    } while (!products.empty() && (slice_goes_on() || (somebody_waits_for_all() &&
+                                                       stopwatch.milliseconds() < ceiling)));
     const double taken = stopwatch.milliseconds();
     for (SessionStep* step : steps) {
         step->session->product_cost_.record_columns(bytes, taken);
