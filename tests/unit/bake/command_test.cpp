@@ -141,5 +141,20 @@ TEST_F(Command, RefusesLightsThatDoNotFit) {
     expect_fault(relit(file("junk.exr")), "junk.exr");
 }
 
+// Terms and curves are found in different ways, which one option names.
+TEST_F(Command, NamesTheWaysToFactor) {
+    const std::vector<std::string> terms{"--builtin", "plane", "-o", file("f.relume")};
+    const std::vector<std::string> curves{
+        "--builtin", "earrings", "-o",    file("f.relume"), "--edit",
+        "pearl",     "--size",   "16x16", "--environment",  "sky-noon"};
+    const auto with = [](std::vector<std::string> words, const std::string& method) {
+        words.insert(words.end(), {"--factors", method});
+        return words;
+    };
+    expect_fault(with(terms, "homomorphic"), "expected for terms one of svd, nmf");
+    expect_fault(with(terms, "nfm"), "--factors is 'nfm'");
+    expect_fault(with(curves, "svd"), "expected for curves one of homomorphic, nmf");
+}
+
 }  // namespace
 }  // namespace relume::bake

@@ -154,6 +154,16 @@ TEST_F(CurveBake, TakesAMeasuredMaterialAsCurves) {
     EXPECT_TRUE(of_cloth.materials[0].albedo);
     const nlohmann::json& errors = of_cloth.materials[0].notes.at("errors");
     EXPECT_LT(errors.at("homomorphic").at("relative_l2").get<double>(), 0.1);
+    const EditedMaterial by_nmf =
+        edited_materials(scene_,
+                         {.edits = {"cloth.fresnel"},
+                          .models = {},
+                          .factors = factors::CurveMethod::nonnegative},
+                         measured)
+            .front();
+    EXPECT_EQ(by_nmf.notes.at("factors"), "nmf");
+    EXPECT_EQ(by_nmf.notes.at("errors"), errors);
+    EXPECT_NE(by_nmf.brdf, of_cloth.materials[0].brdf);
     const auto path = scratch_.path() / "e.relume";
     bake_curves(scene_, parameters_, of_cloth, path, {}, measured);
     const std::string text = text_from_description(describe(path));
