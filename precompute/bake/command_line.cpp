@@ -124,11 +124,19 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
 void add_arguments(CLI::App& app, Arguments& arguments) {
     app.require_subcommand(0, 1);
     add_bake_options(app, arguments);
-    auto* info = app.add_subcommand("info", "Say what a transport directory holds");
-    info->add_option("directory", arguments.directory, "Transport directory")->required();
+    add_material_command(app, arguments.material);
+    auto* info =
+        app.add_subcommand("info", "Say what a transport directory or a material holds");
+    info->add_option("directory", arguments.directory,
+                     "Transport directory, or file of a material")
+        ->required();
     info->add_flag("--json", arguments.json, "As JSON, with everything that was measured");
-    auto* verify = app.add_subcommand("verify", "Check every byte of a transport directory");
-    verify->add_option("directory", arguments.directory, "Transport directory")->required();
+    auto* verify =
+        app.add_subcommand("verify", "Check every byte of a transport directory or a material");
+    verify
+        ->add_option("directory", arguments.directory,
+                     "Transport directory, or file of a material")
+        ->required();
     auto* relight =
         app.add_subcommand("relight", "Compute the dense product of transport and light");
     relight->add_option("directory", arguments.directory, "Transport directory")->required();

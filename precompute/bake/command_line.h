@@ -4,6 +4,7 @@
 #include "precompute/bake/base/parameters.h"
 #include "precompute/bake/curves/edited_material.h"
 #include "precompute/bake/curves/frozen_light.h"
+#include "precompute/bake/material_command.h"
 
 #include <CLI/App.hpp>
 
@@ -41,10 +42,11 @@ struct Arguments {
     bool json = false;
     std::string light;
     std::string image;
+    MaterialArguments material;
 };
 
-// Without a subcommand relume-bake bakes; `info`, `verify`, `relight` and `list` are the
-// others.
+// Without a subcommand relume-bake bakes a scene; `material`, `info`, `verify`, `relight` and
+// `list` are the others.
 void add_arguments(CLI::App& app, Arguments& arguments);
 
 }  // namespace relume::bake

@@ -5,6 +5,7 @@
 #include "precompute/bake/framing.h"
 #include "precompute/bake/image_file.h"
 #include "precompute/bake/inspect.h"
+#include "precompute/bake/material_command.h"
 #include "precompute/bake/output_directory.h"
 #include "precompute/bake/progress_line.h"
 #include "precompute/bake/relight.h"
@@ -285,17 +286,26 @@ std::filesystem::path existing_directory(const Arguments& arguments) {
 }
 
 int run_info(const Arguments& arguments) {
-    const nlohmann::json description = describe(existing_directory(arguments));
+    const std::filesystem::path path = existing_directory(arguments);
+    const bool is_material = is_material_file(path);
+    const nlohmann::json description = is_material ? describe_material(path) : describe(path);
     const std::string text =
         arguments.json
             ? description.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
-            : text_from_description(description);
+        : is_material ? text_from_material(description)
+                      : text_from_description(description);
     std::fputs(text.c_str(), stdout);
     return 0;
 }
 
 int run_verify(const Arguments& arguments) {
-    const std::vector<std::string> faults = find_faults(existing_directory(arguments));
+    const std::filesystem::path path = existing_directory(arguments);
+    if (is_material_file(path)) {
+        (void)describe_material(path);
+        std::printf("%s: the checksum and every entry are right\n", path.c_str());
+        return 0;
+    }
+    const std::vector<std::string> faults = find_faults(path);
     for (const std::string& fault : faults) {
         std::fprintf(stderr, "relume-bake: %s\n", fault.c_str());
     }
@@ -345,6 +355,9 @@ int run_list() {
 }  // namespace
 
 int run_command(const CLI::App& app, const Arguments& arguments) {
+    if (app.got_subcommand("material")) {
+        return run_material_command(arguments.material);
+    }
     if (app.got_subcommand("info")) {
         return run_info(arguments);
     }

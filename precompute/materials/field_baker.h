@@ -18,7 +18,21 @@ struct FieldParameters {
     std::uint32_t reflection_side = 8;   // of the grid of reflections, likewise
     double energy_fraction = 0.99;       // of the squares of an entry, kept at least
     std::uint32_t samples_per_side = 2;  // of a texel
+    std::size_t most_bytes = std::size_t{1} << 30;  // that the field may take in memory
 };
+
+// Grids as fine as the model's highlight asks for: a third of its width from node to node, and
+// half of it where both directions count.
+[[nodiscard]] FieldParameters usual_parameters(const FieldModel& model,
+                                               std::uint32_t face_resolution);
+
+// How much memory a field takes, before it is baked.
+struct FieldSize {
+    std::size_t entries = 0;         // of all lobes
+    std::size_t expected_bytes = 0;  // as some entries have it, spread over all
+    std::size_t bound_bytes = 0;     // whatever entries hold, and no more than `most_bytes`
+};
+[[nodiscard]] FieldSize field_size(const FieldModel& model, const FieldParameters& parameters);
 
 struct FieldReport {
     std::size_t entries = 0;  // of all lobes
@@ -34,7 +48,8 @@ struct FieldReport {
                                                           const Imath::V3f& reflection);
 
 // With the threads of the calling arena; the same field on any number of them. Throws
-// std::invalid_argument for parameters out of range.
+// std::invalid_argument for parameters out of range, std::length_error where the field passes
+// `most_bytes`.
 [[nodiscard]] tripling::MaterialField bake_field(const FieldModel& model,
                                                  const FieldParameters& parameters,
                                                  FieldReport& report);

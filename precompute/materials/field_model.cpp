@@ -36,6 +36,7 @@ FieldModel lambert_model() {
             .depends_on_normal = true,
             .depends_on_reflection = false,
             .width_rad = 1,
+            .colours = {Imath::V3f(1)},
             .evaluate = [](const Imath::V3f& normal, const Imath::V3f& /*reflection*/,
                            const brdf::Directions& light, std::span<float> out) {
                 for (std::size_t i = 0; i < light.size(); ++i) {
@@ -52,6 +53,7 @@ FieldModel phong_model(float exponent) {
             .depends_on_normal = false,
             .depends_on_reflection = true,
             .width_rad = std::acos(std::exp2(-1.0 / std::max(1.0F, exponent))),
+            .colours = {Imath::V3f(1)},
             .evaluate = [exponent](const Imath::V3f& /*normal*/, const Imath::V3f& reflection,
                                    const brdf::Directions& light, std::span<float> out) {
                 const float scale = (exponent + 1) / (2 * std::numbers::pi_v<float>);
@@ -66,11 +68,13 @@ FieldModel phong_model(float exponent) {
 FieldModel lobes_model(std::string name, factors::BrdfLobes lobes) {
     const std::size_t count = lobes.count();
     const double width_rad = lobes.width_rad;
+    std::vector<Imath::V3f> colours = lobes.mean_colours;
     return {.name = std::move(name),
             .lobe_count = count,
             .depends_on_normal = true,
             .depends_on_reflection = true,
             .width_rad = width_rad,
+            .colours = std::move(colours),
             .evaluate = [lobes = std::move(lobes), count](
                             const Imath::V3f& normal, const Imath::V3f& reflection,
                             const brdf::Directions& light, std::span<float> out) {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace relume::materials {
 
@@ -28,6 +29,8 @@ struct FieldModel {
     bool depends_on_normal = true;
     bool depends_on_reflection = true;
     double width_rad = 1;  // of the narrowest highlight
+    // [lobe_count], what each lobe is multiplied with unless somebody says otherwise.
+    std::vector<Imath::V3f> colours{Imath::V3f(1)};
     Evaluate evaluate;
 };
 

@@ -31,6 +31,8 @@ struct MaterialField {
     DirectionGrid reflections{1};
     float energy_fraction = 1;        // of every entry's squares, at least; 1: all
     std::vector<WaveletStore> lobes;  // each with an entry for every pair of nodes
+    // [lobes], what each is multiplied with where nobody says otherwise.
+    std::vector<Imath::V3f> colours;
 
     [[nodiscard]] std::uint32_t face_resolution() const {
         return lobes.front().face_resolution();

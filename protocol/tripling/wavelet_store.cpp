@@ -30,6 +30,14 @@ void WaveletStore::append(const SparseWavelets& function) {
     records_.push_back(record);
 }
 
+void WaveletStore::append(const WaveletView& function) {
+    records_.push_back(
+        {.scaling = function.scaling, .first = function.first, .begin = squares_.size()});
+    const std::size_t count = function.first.back();
+    squares_.insert(squares_.end(), function.squares, function.squares + count);
+    values_.insert(values_.end(), function.values, function.values + count);
+}
+
 WaveletView WaveletStore::view(std::size_t function) const {
     const Record& record = records_[function];
     return {.scaling = record.scaling,

@@ -31,11 +31,18 @@ class WaveletStore {
 
     // Throws std::invalid_argument when the function has another face resolution.
     void append(const SparseWavelets& function);
+    // Copies what the view refers to. Its squares are in range and ascend in every face.
+    void append(const WaveletView& function);
 
     [[nodiscard]] std::uint32_t face_resolution() const { return n_; }
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     [[nodiscard]] WaveletView view(std::size_t function) const;
     [[nodiscard]] std::size_t byte_count() const;
+    // That one function of resolution n can add to byte_count().
+    [[nodiscard]] static std::size_t most_bytes(std::uint32_t n) {
+        return sizeof(Record) + basis::kFaceCount * square_count(n) *
+                                    (sizeof(std::uint16_t) + sizeof(SquareLanes));
+    }
 
   private:
     struct Record {

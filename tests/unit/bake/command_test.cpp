@@ -141,6 +141,39 @@ TEST_F(Command, RefusesLightsThatDoNotFit) {
     expect_fault(relit(file("junk.exr")), "junk.exr");
 }
 
+TEST_F(Command, BakesAMaterialAndLooksAtIt) {
+    const std::string out = file("satin.material");
+    const std::vector<std::string> words{"material", "satin", "--model", "phong:exponent=8",
+                                         "-n",       "8",     "-o",      out};
+    ASSERT_EQ(run(words), 0) << fault_;
+    EXPECT_EQ(run({"info", out}), 0) << fault_;
+    EXPECT_EQ(run({"info", out, "--json"}), 0) << fault_;
+    EXPECT_EQ(run({"verify", out}), 0) << fault_;
+
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return more;
+    };
+    expect_fault(with({"--energy", "0"}), "fraction of energy is 0");
+    expect_fault(with({"--reflections", "66"}), "66 nodes");
+    expect_fault(with({"--texel-samples", "9"}), "samples along a texel are 9");
+    expect_fault(with({"--most-mib", "0"}), "most-mib");
+    expect_fault({"material", "a/b", "--model", "lambert"}, "the material's name is 'a/b'");
+    expect_fault({"material", "a", "--model", "lambert", "-o", file("a.png")}, "NAME.material");
+    expect_fault({"material", "a", "--model", "lambert", "-n", "48", "-o", out},
+                 "face resolution is 48");
+    expect_fault({"material", "a", "--model", "lambert", "-o", file("none/a.material")},
+                 "none");
+    expect_fault({"material", "a", "--model", "ggx:roughness=0.05", "--most-mib", "1", "-n",
+                  "16", "--normals", "9", "--reflections", "33", "-o", out},
+                 "--most-mib");
+    EXPECT_EQ(run({"verify", out}), 0) << "what was refused changed the file: " << fault_;
+
+    std::filesystem::resize_file(out, std::filesystem::file_size(out) - 1);
+    expect_fault({"verify", out}, "satin.material: length");
+    expect_fault({"info", out}, "satin.material: length");
+}
+
 // Terms and curves are found in different ways, which one option names.
 TEST_F(Command, NamesTheWaysToFactor) {
     const std::vector<std::string> terms{"--builtin", "plane", "-o", file("f.relume")};
