@@ -17,6 +17,7 @@
 #include <tbb/global_control.h>
 
 #include <array>
+#include <atomic>
 #include <ctime>
 #include <memory>
 #include <mutex>
@@ -59,6 +60,12 @@ class ProgressCounter {
   public:
     ProgressCounter(const BakeHooks& hooks, std::uint64_t receivers) : hooks_(hooks) {
         progress_.receivers = receivers;
+    }
+
+    // Goes on to the visibility of so many points.
+    void begin_visibility(std::uint64_t points) {
+        const std::scoped_lock lock(mutex_);
+        progress_ = {.stage = BakeStage::visibility, .receivers = points};
     }
 
     // False when the bake should stop.
@@ -105,6 +112,7 @@ std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
                                           const BakeParameters& parameters,
                                           const CurveEdits* edits,
                                           std::span<const MeasuredBrdf> measured,
+                                          const FieldRequest& fields,
                                           const BakeHooks& hooks) {
     if (edits != nullptr) {
         return std::make_unique<CurveSubject>(caster, parameters, edits->light,
@@ -113,7 +121,7 @@ std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
     if (parameters.receivers == ReceiverKind::vertices) {
         return std::make_unique<MeshSubject>(caster, parameters, measured, hooks.should_stop);
     }
-    return std::make_unique<ImageSubject>(caster, parameters);
+    return std::make_unique<ImageSubject>(caster, parameters, fields);
 }
 
 class Bake {
@@ -123,11 +131,12 @@ class Bake {
          const CurveEdits* edits,
          const std::filesystem::path& directory,
          std::span<const MeasuredBrdf> measured,
+         const FieldRequest& fields,
          const BakeHooks& hooks)
         : parameters_(parameters),
           directory_(directory),
           caster_(scene),
-          subject_(make_subject(caster_, parameters, edits, measured, hooks)),
+          subject_(make_subject(caster_, parameters, edits, measured, fields, hooks)),
           progress_(hooks, subject_->receivers().receiver_count()) {
         TracedReceivers::check_memory(subject_->receivers(), parameters);
         subject_->check();
@@ -159,6 +168,10 @@ class Bake {
         const ShardBaker shards(*rows_, quantisation_, parameters_.seed);
         for (std::uint32_t shard = 0; shard < summary_.shards; ++shard) {
             bake_shard(shard, shards, writer, notes);
+        }
+        if (subject_->field_point_count()) {
+            const AddedTime adding(summary_.field_seconds);
+            bake_fields();
         }
         {
             const AddedTime adding(summary_.finish_seconds);
@@ -194,6 +207,25 @@ class Bake {
         summary_.visibility_rays += baked.rays;
         notes.write(shard, baked.notes);
         writer.write_shard(shard, baked.blocks);
+    }
+
+    void bake_fields() {
+        summary_.field_points = subject_->field_point_count().value();
+        progress_.begin_visibility(summary_.field_points);
+        std::atomic<std::uint64_t> all_rays = 0;
+        subject_->bake_fields(
+            {.directory = directory_,
+             .fingerprint = manifest_.fingerprint,
+             .tick = [&](std::uint64_t points, std::uint64_t rays, bool resumed) {
+                 if (resumed) {
+                     summary_.field_points_resumed += points;
+                     progress_.add_resumed(points);
+                     return true;
+                 }
+                 all_rays += rays;
+                 return progress_.add(points, rays);
+             }});
+        summary_.field_rays = all_rays;
     }
 
     void finish(transport::TransportWriter& writer, const ShardNotesFolder& notes) {
@@ -258,16 +290,17 @@ BakeSummary run_bake(const scene::Scene& scene,
                      const CurveEdits* edits,
                      const std::filesystem::path& directory,
                      std::span<const MeasuredBrdf> measured,
+                     const FieldRequest& fields,
                      const BakeHooks& hooks) {
     std::optional<tbb::global_control> limit;
     if (parameters.threads > 0) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, parameters.threads);
     }
     if (measured.empty()) {
-        return Bake(scene, parameters, edits, directory, measured, hooks).run();
+        return Bake(scene, parameters, edits, directory, measured, fields, hooks).run();
     }
     const scene::Scene seen_by_paths = scene_with_albedos(scene, measured);
-    return Bake(seen_by_paths, parameters, edits, directory, measured, hooks).run();
+    return Bake(seen_by_paths, parameters, edits, directory, measured, fields, hooks).run();
 }
 
 }  // namespace
@@ -276,8 +309,10 @@ BakeSummary bake(const scene::Scene& scene,
                  const BakeParameters& parameters,
                  const std::filesystem::path& directory,
                  const BakeHooks& hooks,
-                 std::span<const MeasuredBrdf> measured) {
+                 std::span<const MeasuredBrdf> measured,
+                 const FieldRequest& fields) {
     check_parameters(parameters);
+    check_fields(fields, parameters);
     if (!measured.empty() && parameters.receivers != ReceiverKind::vertices) {
         throw program::UsageError(
             fmt::format("'{}' is to reflect as was measured: expected receivers that are "
@@ -285,7 +320,7 @@ BakeSummary bake(const scene::Scene& scene,
                         "beside it",
                         measured.front().material));
     }
-    return run_bake(scene, parameters, nullptr, directory, measured, hooks);
+    return run_bake(scene, parameters, nullptr, directory, measured, fields, hooks);
 }
 
 BakeSummary bake_curves(const scene::Scene& scene,
@@ -303,7 +338,7 @@ BakeSummary bake_curves(const scene::Scene& scene,
             "expected "
             "neither --receivers vertices nor --basis sh beside --edit");
     }
-    return run_bake(scene, parameters, &edits, directory, measured, hooks);
+    return run_bake(scene, parameters, &edits, directory, measured, {}, hooks);
 }
 
 }  // namespace relume::bake

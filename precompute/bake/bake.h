@@ -1,6 +1,7 @@
 // From a scene to a transport directory.
 #pragma once
 
+#include "precompute/bake/base/field_request.h"
 #include "precompute/bake/base/measured_brdf.h"
 #include "precompute/bake/base/parameters.h"
 #include "precompute/bake/curves/edited_material.h"
@@ -19,8 +20,13 @@ namespace relume::bake {
 inline constexpr std::uint32_t kStatingRows = 128;
 inline constexpr std::uint32_t kChoosingRows = 64;
 
+// Rows first, and then what points see of the light, where that is asked for.
+enum class BakeStage : std::uint8_t { rows, visibility };
+
 struct BakeProgress {
-    std::uint64_t receivers_done = 0;  // resumed shards included
+    BakeStage stage = BakeStage::rows;
+    // Receivers that have rows, or points that see the light.
+    std::uint64_t receivers_done = 0;  // resumed ones included
     std::uint64_t receivers_resumed = 0;
     std::uint64_t receivers = 0;
     std::uint64_t rays = 0;
@@ -40,10 +46,14 @@ struct BakeSummary {
     double pilot_seconds = 0;
     double path_seconds = 0;    // camera rays and path tracing
     double row_seconds = 0;     // visibility, projection, quantisation, encoding
+    double field_seconds = 0;   // visibility of points
     double finish_seconds = 0;  // column tables, manifest, view
     double cpu_seconds = 0;     // of paths and rows: the process's, whatever else it does
     std::uint64_t visibility_rays = 0;
     std::uint64_t path_rays = 0;
+    std::uint64_t field_rays = 0;
+    std::uint64_t field_points = 0;
+    std::uint64_t field_points_resumed = 0;
     std::uint32_t shards = 0;
     std::uint32_t shards_resumed = 0;
     std::uint64_t peak_memory_bytes = 0;
@@ -59,14 +69,16 @@ struct CurveEdits {
 // continued: shards of a bake of the same inputs that was interrupted are kept. The same inputs
 // give the same bytes on any number of threads. Memory stays bounded by a shard's rows of paths
 // and the non-zero values of the blocks in work. Of receivers that are vertices, `measured`
-// BRDFs take the place of what the scene says of their materials. Throws BakeError,
-// BakeInterrupted, scene::SceneError, transport::TransportError, files::FileError,
-// program::UsageError.
+// BRDFs take the place of what the scene says of their materials. `fields` asks for more files
+// beside the light, which has the same bits with and without them; they are baked after the
+// shards, and resumed as these are. Throws BakeError, BakeInterrupted, scene::SceneError,
+// transport::TransportError, files::FileError, program::UsageError.
 BakeSummary bake(const scene::Scene& scene,
                  const BakeParameters& parameters,
                  const std::filesystem::path& directory,
                  const BakeHooks& hooks = {},
-                 std::span<const MeasuredBrdf> measured = {});
+                 std::span<const MeasuredBrdf> measured = {},
+                 const FieldRequest& fields = {});
 
 // The same of an image of pixels that answers to curves. The light is of the resolution of the
 // parameters, and their basis is Haar's; throws program::UsageError where they ask for

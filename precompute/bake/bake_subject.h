@@ -3,14 +3,17 @@
 
 #include "precompute/bake/blocks/cluster_sample.h"
 #include "precompute/bake/blocks/row_source.h"
+#include "precompute/bake/fields/field_bake.h"
 #include "precompute/bake/receivers/receivers.h"
 #include "protocol/transport/manifest.h"
 #include "protocol/transport/transport_writer.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +43,12 @@ class BakeSubject {
 
     // How much of each receiver sees the scene, in [0, 1].
     [[nodiscard]] virtual std::vector<float> coverage() = 0;
+    // Points whose visibility is stored beside the rows; none: nobody asks for it.
+    [[nodiscard]] virtual std::optional<std::uint64_t> field_point_count() const {
+        return std::nullopt;
+    }
+    // Bakes it, before write_tables(). Throws BakeInterrupted, BakeError, files::FileError.
+    virtual void bake_fields(const FieldWork& /*work*/) {}
     // Files of the transport that are neither shards nor tables of all kinds.
     virtual void write_tables(transport::TransportWriter& writer) = 0;
     // What people and clients look at beside the finished transport in `directory`. After

@@ -37,6 +37,19 @@ void add_curve_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
 }
 
+void add_field_options(CLI::App& app, Arguments& arguments) {
+    app.add_option(
+           "--editable", arguments.fields.editable,
+           "Beside the light, store what the points of these materials see of it, so that "
+           "people edit them under any light: MATERIAL; several with commas")
+        ->delimiter(',')
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("--visibility-resolution", arguments.fields.resolution,
+                   "Texels along a face of the cubemap that points see, 4 to the light's [the "
+                   "light's]");
+}
+
 void add_bake_options(CLI::App& app, Arguments& arguments) {
     using Kind = basis::CubemapBasis::Kind;
     const std::map<std::string, Kind> kinds{{"haar", Kind::haar},
@@ -114,6 +127,7 @@ void add_bake_options(CLI::App& app, Arguments& arguments) {
                    "the MERL database; may be given again")
         ->take_all()
         ->allow_extra_args(false);
+    add_field_options(app, arguments);
     add_curve_options(app, arguments);
     app.add_option("--threads", p.threads, "Threads; 0: one per core")->capture_default_str();
     app.add_option("--seed", p.seed, "Chooses all random numbers")->capture_default_str();

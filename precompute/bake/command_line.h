@@ -1,6 +1,7 @@
 // The words relume-bake understands.
 #pragma once
 
+#include "precompute/bake/base/field_request.h"
 #include "precompute/bake/base/parameters.h"
 #include "precompute/bake/curves/edited_material.h"
 #include "precompute/bake/curves/frozen_light.h"
@@ -33,6 +34,7 @@ struct Arguments {
     std::string factors;                 // of terms or of curves; empty: as usual
     BakeParameters parameters;
     std::optional<std::uint32_t> light_resolution;
+    FieldRequest fields;
     // bake, of curves
     CurveRequest curves;
     LightRequest frozen_light;

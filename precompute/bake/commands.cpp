@@ -185,6 +185,10 @@ std::optional<CurveEdits> curve_edits(const Arguments& arguments,
 
 // What is said of curves without --edit, and of light in its place, has no meaning.
 void check_curve_options(const Arguments& arguments) {
+    if (!arguments.curves.edits.empty() && !arguments.fields.empty()) {
+        throw program::UsageError(
+            "--edit freezes the light that --editable leaves free, expected one of them");
+    }
     if (arguments.curves.edits.empty()) {
         const bool says_curves = !arguments.curves.models.empty() ||
                                  !arguments.frozen_light.environment.empty() ||
@@ -239,6 +243,7 @@ int run_bake(const Arguments& arguments) {
             factors_from_option(arguments.factors, factors::kMethodNames, "terms");
     }
     check_parameters(parameters);
+    check_fields(arguments.fields, parameters);
     std::vector<MeasuredBrdf> measured;
     for (const std::string& words : arguments.measured) {
         measured.push_back(read_measured_brdf(words));
@@ -250,7 +255,8 @@ int run_bake(const Arguments& arguments) {
         write_preview(arguments.preview, scene, parameters);
         return 0;
     }
-    const OutputDirectory output(transport_directory_from_option(arguments.output), parameters);
+    const OutputDirectory output(transport_directory_from_option(arguments.output), parameters,
+                                 arguments.fields);
     if (output.path() != std::filesystem::path(arguments.output)) {
         std::fprintf(stderr, "relume-bake: -o %s is completed to %s\n",
                      arguments.output.c_str(), output.path().c_str());
@@ -266,8 +272,9 @@ int run_bake(const Arguments& arguments) {
         const BakeHooks hooks{
             .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
             .should_stop = [] { return stop_requested.load(); }};
-        summary = edits ? bake_curves(scene, parameters, *edits, output.path(), hooks, measured)
-                        : bake(scene, parameters, output.path(), hooks, measured);
+        summary =
+            edits ? bake_curves(scene, parameters, *edits, output.path(), hooks, measured)
+                  : bake(scene, parameters, output.path(), hooks, measured, arguments.fields);
     }
     write_report(output.path(), report_from(scene, parameters, summary));
     const nlohmann::json description = describe(output.path());

@@ -3,14 +3,11 @@
 #include "precompute/bake/blocks/sampling_error.h"
 #include "precompute/bake/curves/curve_rows.h"
 #include "precompute/bake/fingerprint.h"
-#include "precompute/bake/image_file.h"
 #include "protocol/basis/curve_basis.h"
 
 #include <nlohmann/json.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -90,37 +87,12 @@ void CurveSubject::describe(transport::Manifest& manifest) const {
     manifest.curves = std::move(section);
 }
 
-void CurveSubject::find_shown_materials() {
-    const PixelReceivers& pixels = image_.pixels();
-    shown_.assign(pixels.receiver_count(), 0);
-    std::vector<std::atomic<bool>> is_seen(materials_.size());
-    tbb::parallel_for(std::size_t{0}, pixels.receiver_count(), [&](std::size_t pixel) {
-        std::vector<float> share(caster_.scene().materials.size());
-        float open = 1;
-        for (const ReceiverSurface& surface : pixels.look(pixel).surfaces) {
-            share[surface.material] += surface.share;
-            open -= surface.share;
-        }
-        const float most = std::max(open, *std::max_element(share.begin(), share.end()));
-        for (std::size_t m = 0; m < materials_.size(); ++m) {
-            const float of_material = share[materials_[m].material];
-            if (of_material > 0) {
-                is_seen[m] = true;
-            }
-            if (of_material > 0 && of_material == most) {
-                shown_[pixel] = static_cast<std::uint8_t>(m + 1);
-            }
-        }
-    });
-    in_view_.assign(is_seen.begin(), is_seen.end());
-}
-
 nlohmann::json CurveSubject::measured() const {
     nlohmann::json materials = nlohmann::json::array();
     for (std::size_t m = 0; m < materials_.size(); ++m) {
         nlohmann::json notes = materials_[m].notes;
         notes["name"] = materials_[m].name;
-        notes["in_view"] = static_cast<bool>(in_view_[m]);
+        notes["in_view"] = static_cast<bool>(shown_.in_view[m]);
         materials.push_back(std::move(notes));
     }
     return {{"materials", std::move(materials)}};
@@ -129,18 +101,17 @@ nlohmann::json CurveSubject::measured() const {
 std::vector<float> CurveSubject::coverage() {
     std::vector<float> coverage = image_.coverage();
     std::fill(coverage.begin(), coverage.end(), 1.0F);
-    find_shown_materials();
+    std::vector<std::uint32_t> edited;
+    for (const EditedMaterial& material : materials_) {
+        edited.push_back(material.material);
+    }
+    shown_ = shown_materials(image_.pixels(), edited, caster_.scene().materials.size());
     return coverage;
 }
 
 void CurveSubject::write_files(const std::filesystem::path& directory) const {
     image_.write_files(directory);
-    const transport::TileGrid& size = image_.pixels().image();
-    FloatImage materials{size.width, size.height, 1, {}};
-    for (const std::uint8_t shown : shown_) {
-        materials.values.push_back(static_cast<float>(shown) / 255);
-    }
-    write_png(directory / "view" / "materials.png", materials);
+    write_shown_materials(directory, shown_);
 }
 
 }  // namespace relume::bake

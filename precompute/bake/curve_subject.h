@@ -6,6 +6,7 @@
 #include "precompute/bake/curves/edited_material.h"
 #include "precompute/bake/curves/frozen_light.h"
 #include "precompute/bake/image_subject.h"
+#include "precompute/bake/shown_materials.h"
 
 #include <vector>
 
@@ -36,16 +37,12 @@ class CurveSubject final : public BakeSubject {
     void write_files(const std::filesystem::path& directory) const override;
 
   private:
-    void find_shown_materials();
-
     const RayCaster& caster_;
     BakeParameters parameters_;
     const FrozenLight& light_;
     const std::vector<EditedMaterial>& materials_;
     ImageSubject image_;
-    // By pixel: m + 1 where it shows the m-th material more than anything else, else 0.
-    std::vector<std::uint8_t> shown_;
-    std::vector<bool> in_view_;  // by edited material
+    ShownMaterials shown_;
 };
 
 }  // namespace relume::bake

@@ -104,6 +104,40 @@ std::string megabytes(double bytes) {
     return fmt::format("{:.1f} MB", bytes / 1e6);
 }
 
+// Nothing where no visibility is stored.
+std::string visibility_text(const nlohmann::json& d) {
+    if (!d.contains("visibility")) {
+        return {};
+    }
+    const auto& visibility = d.at("visibility");
+    std::string text;
+    if (d.contains("editable")) {
+        text = "  edited under any light:";
+        for (const auto& material : d.at("editable")) {
+            text += fmt::format("{} {}", &material == &d.at("editable").front() ? "" : ",",
+                                material.at("name").get<std::string>());
+        }
+        text += "\n";
+    }
+    const auto bytes = visibility.at("bytes").get<double>();
+    const auto points = visibility.at("points").get<std::uint64_t>();
+    text += fmt::format("  visibility of {} points, 6×{n}×{n} bits each: {}", points,
+                        megabytes(bytes),
+                        fmt::arg("n", visibility.at("face_resolution").get<int>()));
+    if (points > 0) {
+        text += fmt::format(", {:.0f} bytes a point", bytes / static_cast<double>(points));
+    }
+    // Other writers may not state it.
+    const nlohmann::json& measured = d.at("measured");
+    if (measured.contains("visibility") && measured.at("visibility").is_object()) {
+        const auto open = measured.at("visibility").find("open_share");
+        if (open != measured.at("visibility").end() && open->is_number()) {
+            text += fmt::format(", {:.1f} % open", 100 * open->get<double>());
+        }
+    }
+    return text + "\n";
+}
+
 std::string lines_from_measured(const nlohmann::json& measured) {
     std::string text;
     if (measured.contains("cells")) {
@@ -135,6 +169,9 @@ std::string lines_from_measured(const nlohmann::json& measured) {
     }
     if (measured.contains("materials") && measured.at("materials").is_array()) {
         for (const auto& material : measured.at("materials")) {
+            if (!material.is_object()) {
+                continue;  // of a surface: notes
+            }
             if (material.contains("measured")) {
                 text += fmt::format("  {} in curves of {}, by {}\n",
                                     material.at("measured").get<std::string>(),
@@ -157,6 +194,11 @@ std::string lines_from_measured(const nlohmann::json& measured) {
                     "out\n",
                     material.at("name").get<std::string>(),
                     material.at("texture_left_out").get<std::string>());
+            }
+            if (material.value("has_specular_textures", false)) {
+                text += fmt::format(
+                    "  warning: edits of {} start from a highlight without its textures\n",
+                    material.at("name").get<std::string>());
             }
             if (!material.value("in_view", true)) {
                 text += fmt::format("  warning: no pixel sees the edited material {}\n",
@@ -224,6 +266,18 @@ nlohmann::json describe(const std::filesystem::path& directory) {
         }
         description["light"] = manifest.curves->light;
     }
+    if (transport->visibility()) {
+        const transport::VisibilityRecord& record =
+            manifest.materials ? manifest.materials->visibility : *manifest.visibility;
+        description["visibility"] = {
+            {"face_resolution", record.face_resolution},
+            {"points", transport->visibility()->point_count()},
+            {"bytes",
+             record.file.bytes + (manifest.materials ? manifest.materials->points.bytes : 0)}};
+    }
+    if (manifest.materials) {
+        description["editable"] = transport::json_from(*manifest.materials).at("editable");
+    }
     if (manifest.mesh) {
         description["vertices"] = manifest.layout.clusters().vertex_count();
         description["clusters"] = manifest.layout.clusters().clusters().size();
@@ -274,6 +328,7 @@ std::string text_from_description(const nlohmann::json& d) {
         text += fmt::format(fmt::runtime(of_what), error.at("natural").get<double>(),
                             error.at("sun").get<double>());
     }
+    text += visibility_text(d);
     text += text_from_measured(d.at("measured"));
     text += exactness_text(d.at("basis"));
     return text + text_from_report(d.at("report"));

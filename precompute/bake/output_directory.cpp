@@ -46,14 +46,16 @@ void remove_what_is_empty(const fs::path& directory) {
 
 // Whatever a bake writes under a name of its own: no folder may have it.
 void require_free_names(const fs::path& directory) {
-    for (const char* name : {"manifest.json", "columns.bin", "receivers.bin", "sketch.bin",
-                             "report.json", "view/albedo.exr", "view/depth.exr",
-                             "view/thumbnail.png", "view/picture.png", "view/materials.png"}) {
+    for (const char* name :
+         {"manifest.json", "columns.bin", "receivers.bin", "sketch.bin", "report.json",
+          "view/albedo.exr", "view/depth.exr", "view/thumbnail.png", "view/picture.png",
+          "view/materials.png", "visibility.bin", "points.bin"}) {
         files::require_replaceable(directory / name);
     }
     for (const char* folder : {"shards", "partial"}) {
         for (const fs::directory_entry& entry : fs::directory_iterator(directory / folder)) {
-            if (entry.path().extension() == ".shard" || entry.path().extension() == ".notes") {
+            const fs::path extension = entry.path().extension();
+            if (extension == ".shard" || extension == ".notes" || extension == ".fields") {
                 files::require_replaceable(entry.path());
             }
         }
@@ -94,7 +96,7 @@ fs::path transport_directory_from_option(const std::string& text) {
     return path;
 }
 
-LeastBytes least_bytes(const BakeParameters& parameters) {
+LeastBytes least_bytes(const BakeParameters& parameters, const FieldRequest& fields) {
     const transport::TileGrid image{.width = parameters.width, .height = parameters.height};
     const std::uint64_t columns = signal_basis(parameters).coefficient_count();
     const std::uint64_t blocks =
@@ -106,11 +108,15 @@ LeastBytes least_bytes(const BakeParameters& parameters) {
     const std::uint64_t shard = 4 * (columns + 1);
     const std::uint64_t shards =
         (blocks + transport::kMaxBlocksPerShard - 1) / transport::kMaxBlocksPerShard;
-    return {.total = column_table + receivers + sketch + shards * shard,
-            .longest_file = std::max({column_table, receivers, sketch, shard})};
+    // Of visibility.bin and points.bin: a head, and an entry for each block.
+    const std::uint64_t field = fields.empty() ? 0 : 32 + 16 * blocks;
+    return {.total = column_table + receivers + sketch + shards * shard + 2 * field,
+            .longest_file = std::max({column_table, receivers, sketch, shard, field})};
 }
 
-OutputDirectory::OutputDirectory(fs::path path, const BakeParameters& parameters)
+OutputDirectory::OutputDirectory(fs::path path,
+                                 const BakeParameters& parameters,
+                                 const FieldRequest& fields)
     : path_(std::move(path)) {
     make_directory(path_);
     lock_.emplace(path_);
@@ -119,7 +125,7 @@ OutputDirectory::OutputDirectory(fs::path path, const BakeParameters& parameters
             make_directory(path_ / folder);
         }
         require_free_names(path_);
-        const LeastBytes least = least_bytes(parameters);
+        const LeastBytes least = least_bytes(parameters, fields);
         files::require_room(path_, least.total, least.longest_file);
         for (const char* folder : kFolders) {
             files::require_room(path_ / folder, 0, 0);

@@ -2,6 +2,7 @@
 // find, a directory that is ours alone and takes what will be written.
 #pragma once
 
+#include "precompute/bake/base/field_request.h"
 #include "precompute/bake/base/parameters.h"
 #include "protocol/base/files/directory_lock.h"
 
@@ -21,7 +22,8 @@ struct LeastBytes {
     std::uint64_t total = 0;
     std::uint64_t longest_file = 0;
 };
-[[nodiscard]] LeastBytes least_bytes(const BakeParameters& parameters);
+[[nodiscard]] LeastBytes least_bytes(const BakeParameters& parameters,
+                                     const FieldRequest& fields = {});
 
 // The directory, made and held while this lives. What was made and stayed empty is removed with
 // it, so that a scene that cannot be read leaves no trace.
@@ -29,7 +31,9 @@ class OutputDirectory {
   public:
     // Throws files::FileError when it cannot be made, another bake writes into it, something
     // that is no file has the name of one to come, or the room does not suffice.
-    OutputDirectory(std::filesystem::path path, const BakeParameters& parameters);
+    OutputDirectory(std::filesystem::path path,
+                    const BakeParameters& parameters,
+                    const FieldRequest& fields = {});
     OutputDirectory(const OutputDirectory&) = delete;
     OutputDirectory& operator=(const OutputDirectory&) = delete;
     OutputDirectory(OutputDirectory&&) = delete;

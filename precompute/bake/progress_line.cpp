@@ -25,8 +25,10 @@ std::string progress_text(const BakeProgress& progress, double seconds) {
     const auto left = static_cast<double>(progress.receivers - progress.receivers_done);
     const double rate = seconds > 0 ? baked / seconds : 0;
     const double rays = seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0;
-    std::string text = fmt::format("{:3.0f}%  {:.0f} pixels/s  {:.1f} Mrays/s  {} gone",
-                                   100 * done, rate, rays / 1e6, clock_text(seconds));
+    const bool of_points = progress.stage == BakeStage::visibility;
+    std::string text = fmt::format(
+        "{}{:3.0f}%  {:.0f} {}/s  {:.1f} Mrays/s  {} gone", of_points ? "visibility " : "",
+        100 * done, rate, of_points ? "points" : "pixels", rays / 1e6, clock_text(seconds));
     constexpr double kTellingPart = 0.1;
     if (rate > 0 && left > 0 && baked >= kTellingPart * (baked + left)) {
         text += fmt::format("  {} left", clock_text(left / rate));
@@ -45,6 +47,13 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::update(const BakeProgress& progress) {
     const auto now = Clock::now();
+    if (progress.stage != stage_) {
+        stage_ = progress.stage;
+        start_ = next_ = now;
+        if (terminal_ && drawn_) {
+            std::fputc('\n', stream_);
+        }
+    }
     const bool last = progress.receivers_done == progress.receivers;
     if (now < next_ && !last) {
         return;

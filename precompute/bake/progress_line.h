@@ -9,7 +9,8 @@
 
 namespace relume::bake {
 
-// "42%  310 pixels/s  1.2 Mrays/s  1:04 gone  1:29 left" after so many seconds. The time left
+// "42%  310 pixels/s  1.2 Mrays/s  1:04 gone  1:29 left" after so many seconds of a stage; of
+// the visibility of points it begins with "visibility". The time left
 // is named once a tenth of what had to be baked is baked, for before that it would be a guess.
 [[nodiscard]] std::string progress_text(const BakeProgress& progress, double seconds);
 
@@ -31,7 +32,8 @@ class ProgressLine {
     std::FILE* stream_;
     bool terminal_;
     bool drawn_ = false;
-    Clock::time_point start_ = Clock::now();
+    BakeStage stage_ = BakeStage::rows;
+    Clock::time_point start_ = Clock::now();  // of the stage
     Clock::time_point next_ = start_;
 };
 

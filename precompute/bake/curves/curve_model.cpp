@@ -127,21 +127,21 @@ curve::CurveBrdf curve_brdf_from_text(const std::string& option, const std::stri
     }
 }
 
+scene::Bsdf bsdf_without_textures(const scene::Material& material) {
+    scene::Material plain = material;
+    plain.base_texture = plain.specular_texture = plain.exponent_texture =
+        plain.surface_texture = plain.gloss_texture = plain.dielectric_texture =
+            plain.dielectric_colour_texture = std::nullopt;
+    return plain.bsdf_at({}, {}, {1, 1, 1});
+}
+
 curve::CurveBrdf curve_brdf_of(const scene::Material& material) {
-    const Imath::V3f white(1, 1, 1);
+    const scene::Bsdf bsdf = bsdf_without_textures(material);
     switch (material.model) {
-        case scene::BsdfModel::phong: {
-            const scene::Bsdf bsdf =
-                scene::Bsdf::phong(material.base_colour, material.specular, material.exponent);
+        case scene::BsdfModel::phong:
             return curve::CurveBrdf::phong(bsdf.specular_colour(), bsdf.exponent());
-        }
-        case scene::BsdfModel::ggx: {
-            scene::Material plain = material;
-            plain.base_texture = plain.surface_texture = plain.gloss_texture =
-                plain.dielectric_texture = plain.dielectric_colour_texture = std::nullopt;
-            const scene::Bsdf bsdf = plain.bsdf_at({}, {}, white);
+        case scene::BsdfModel::ggx:
             return curve::CurveBrdf::ggx(bsdf.specular_colour(), bsdf.grazing(), bsdf.alpha());
-        }
         case scene::BsdfModel::lambert:
             break;
     }

@@ -1,37 +1,18 @@
 #include "precompute/bake/curves/edited_material.h"
 
+#include "precompute/bake/base/material_names.h"
 #include "precompute/bake/curves/curve_model.h"
 #include "precompute/bake/curves/point_brdf.h"
 #include "protocol/base/program/usage.h"
-#include "protocol/base/text/names.h"
-#include "protocol/base/text/near_names.h"
 #include "protocol/curve/curve_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 namespace relume::bake {
 namespace {
-
-std::vector<std::string> material_names(const scene::Scene& scene) {
-    std::vector<std::string> names;
-    for (const scene::Material& material : scene.materials) {
-        names.push_back(material.name);
-    }
-    return names;
-}
-
-std::optional<std::uint32_t> find_material(const scene::Scene& scene, std::string_view name) {
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        if (scene.materials[i].name == name) {
-            return i;
-        }
-    }
-    return std::nullopt;
-}
 
 // MATERIAL or MATERIAL.CURVE; names of materials may hold dots.
 struct Edit {
@@ -49,27 +30,7 @@ Edit edit_from_text(const scene::Scene& scene, const std::string& text) {
             return {.material = *before, .curve = text.substr(dot + 1)};
         }
     }
-    throw program::UsageError(fmt::format(
-        "--edit {}: the scene has no such material, expected {}", text,
-        text::expected_name(text.substr(0, dot), material_names(scene), "materials")));
-}
-
-// Letters that a name has none of become dashes; a name that is taken gets a number.
-std::string id_from_name(const std::string& name, std::set<std::string>& taken) {
-    std::string id = name.substr(0, text::kMaxNameLength - 3);
-    for (char& letter : id) {
-        if (!text::is_name(std::string("a") + letter)) {
-            letter = '-';
-        }
-    }
-    if (!text::is_name(id)) {
-        id = "material" + id;
-    }
-    std::string free = id;
-    for (int number = 2; !taken.insert(free).second; ++number) {
-        free = fmt::format("{}-{}", id, number);
-    }
-    return free;
+    throw program::UsageError(no_such_material("--edit " + text, text.substr(0, dot), scene));
 }
 
 std::size_t usual_curve(const curve::CurveBrdf& brdf) {
@@ -103,7 +64,7 @@ std::vector<EditedMaterial> edited_materials(const scene::Scene& scene,
                                              std::span<const MeasuredBrdf> measured) {
     StatedModels models(request, measured);
     std::vector<EditedMaterial> materials;
-    std::set<std::string> taken;
+    MaterialIds ids;
     for (const std::string& text : request.edits) {
         const Edit edit = edit_from_text(scene, text);
         const scene::Material& material = scene.materials[edit.material];
@@ -124,7 +85,7 @@ std::vector<EditedMaterial> edited_materials(const scene::Scene& scene,
         const std::size_t index = curve_index(stated.brdf, edit.curve, material.name);
         materials.push_back({.material = edit.material,
                              .name = material.name,
-                             .id = id_from_name(material.name, taken),
+                             .id = ids.next(material.name),
                              .brdf = std::move(stated.brdf),
                              .curve = index,
                              .is_of_scene = stated.is_of_scene,

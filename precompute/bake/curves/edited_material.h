@@ -50,6 +50,9 @@ struct CurveRequest {
     const CurveRequest& request,
     std::span<const MeasuredBrdf> measured = {});
 
+// The material where its textures, and colours of vertices, are white.
+[[nodiscard]] scene::Bsdf bsdf_without_textures(const scene::Material& material);
+
 // The BRDF's specular part as curves: of GGX and Phong exactly as the scene has them where
 // textures and colours of vertices are white. Throws program::UsageError for Lambert, which has
 // none.

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "precompute/bake/rays/ray_caster.h"
+#include "precompute/bake/rows/jitter_shift.h"
 #include "precompute/bake/rows/light_texels.h"
 
 #include <Imath/ImathVec.h>
@@ -20,13 +21,6 @@
 #include <vector>
 
 namespace relume::bake {
-
-// Moves the jitter of a point's texels, each part in [0, 1). One pair for each place of a
-// packet: texels that are neighbours are moved independently of each other.
-struct JitterShift {
-    std::array<float, kPacketSize> column{};
-    std::array<float, kPacketSize> row{};
-};
 
 class Visibility {
   public:

@@ -174,6 +174,26 @@ TEST_F(Command, BakesAMaterialAndLooksAtIt) {
     expect_fault({"info", out}, "satin.material: length");
 }
 
+TEST_F(Command, BakesMaterialsThatAreEditedUnderAnyLight) {
+    const std::vector<std::string> words{"--builtin", "earrings",   "-o",
+                                         file("e"),   "--size",     "20x18",
+                                         "--bounces", "0",          "--light-resolution",
+                                         "8",         "--editable", "pearl,cloth"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return more;
+    };
+    ASSERT_EQ(run(with({"--visibility-resolution", "4"})), 0) << fault_;
+    EXPECT_EQ(run({"info", file("e.relume")}), 0) << fault_;
+    EXPECT_EQ(run({"verify", file("e.relume")}), 0) << fault_;
+    EXPECT_TRUE(std::filesystem::exists(file("e.relume") + "/points.bin"));
+    expect_fault(with({"--visibility-resolution", "16"}), "the light's 8");
+    expect_fault(with({"--editable", "perl"}), "did you mean pearl");
+    expect_fault(with({"--edit", "pearl", "--environment", "sky-noon"}), "one of them");
+    expect_fault(with({"--receivers", "vertices"}), "--receivers vertices");
+    expect_fault(with({"--model", "pearl=ggx"}), "--model");
+}
+
 // Terms and curves are found in different ways, which one option names.
 TEST_F(Command, NamesTheWaysToFactor) {
     const std::vector<std::string> terms{"--builtin", "plane", "-o", file("f.relume")};

@@ -1,0 +1,34 @@
+// Materials by the names that people call them by.
+#pragma once
+
+#include "precompute/scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace relume::bake {
+
+// Index into the scene's materials of the first with this name.
+[[nodiscard]] std::optional<std::uint32_t> find_material(const scene::Scene& scene,
+                                                         std::string_view name);
+
+// A message for a name that no material has; `option` is what asked for it, and what resembles
+// the name is named.
+[[nodiscard]] std::string no_such_material(const std::string& option,
+                                           const std::string& name,
+                                           const scene::Scene& scene);
+
+// IDs by which rooms call materials, each once: of the name, with dashes for letters that IDs
+// have none of, and a number where that is taken.
+class MaterialIds {
+  public:
+    [[nodiscard]] std::string next(const std::string& name);
+
+  private:
+    std::set<std::string> taken_;
+};
+
+}  // namespace relume::bake
