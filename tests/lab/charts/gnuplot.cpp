@@ -56,10 +56,19 @@ void draw_picture(const fs::path& stem, const Chart& chart) {
          chart);
 }
 
+namespace {
+
+const char* const kColours[] = {"#999999", "#56B4E9", "#0072B2", "#D55E00",
+                                "#009E73", "#CC79A7", "#E69F00", "#000000"};
+
+}  // namespace
+
 const char* chart_colour(std::size_t n) {
-    static const char* const kColours[] = {"#999999", "#56B4E9", "#0072B2", "#D55E00",
-                                           "#009E73", "#CC79A7", "#E69F00", "#000000"};
     return kColours[n % std::size(kColours)];
+}
+
+std::size_t chart_dashes(std::size_t n) {
+    return 1 + n / std::size(kColours);
 }
 
 int chart_point(std::size_t n) {

@@ -23,6 +23,9 @@ void draw_picture(const std::filesystem::path& stem, const Chart& chart);
 
 // The n-th of eight colours that colour-blind people tell apart too [Okabe02]; then again.
 [[nodiscard]] const char* chart_colour(std::size_t n);
+// gnuplot's number of the dashes with which the n-th line is drawn: solid ones, and others each
+// time that the colours begin again.
+[[nodiscard]] std::size_t chart_dashes(std::size_t n);
 // The n-th of gnuplot's filled and open point types.
 [[nodiscard]] int chart_point(std::size_t n);
 // As gnuplot takes it in single quotes, without enhanced text in it.

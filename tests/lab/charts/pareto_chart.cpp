@@ -56,8 +56,8 @@ std::string plot_command(const std::string& block,
                     series.size(), titles ? "title 'Pareto front'" : "notitle");
     for (std::size_t i = 0; i < series.size(); ++i) {
         command += fmt::format(
-            ", ${} index {} using 1:2 with linespoints lw 1.5 pt {} ps {} lc rgb '{}' {}",
-            block, i, chart_point(i), point_size, chart_colour(i + 1),
+            ", ${} index {} using 1:2 with linespoints lw 1.5 dt {} pt {} ps {} lc rgb '{}' {}",
+            block, i, chart_dashes(i + 1), chart_point(i), point_size, chart_colour(i + 1),
             titles ? fmt::format("title '{}'", chart_text(series[i])) : "notitle");
     }
     return command + "\n";
@@ -182,8 +182,9 @@ void draw_pareto_multiples(const std::filesystem::path& stem,
     std::string legend =
         "plot 2 notitle, keyentry with lines lw 3 lc rgb '#c8c8c8' title 'Pareto front'";
     for (std::size_t i = 0; i < series.size(); ++i) {
-        legend += fmt::format(", keyentry with linespoints pt {} lc rgb '{}' title '{}'",
-                              chart_point(i), chart_colour(i + 1), chart_text(series[i]));
+        legend += fmt::format(", keyentry with linespoints dt {} pt {} lc rgb '{}' title '{}'",
+                              chart_dashes(i + 1), chart_point(i), chart_colour(i + 1),
+                              chart_text(series[i]));
     }
     chart.commands += legend + "\nunset multiplot\n";
     draw_chart(stem, chart);
