@@ -100,9 +100,30 @@ bool MaterialLayer::has_work() const {
     return !all_known || (!is_whole() && may_grow());
 }
 
+bool MaterialLayer::has_columns() const {
+    return std::all_of(shown_.begin(), shown_.end(),
+                       [](const auto& work) { return work->has_columns(); });
+}
+
 bool MaterialLayer::is_whole() const {
     return std::all_of(shown_.begin(), shown_.end(),
                        [](const auto& work) { return work->is_whole(); });
+}
+
+bool MaterialLayer::work_a_batch() {
+    const auto unknown = std::find_if(shown_.begin(), shown_.end(),
+                                      [](const auto& work) { return !work->is_known(); });
+    if (unknown != shown_.end()) {
+        return (*unknown)->glance(light_);
+    }
+    const auto unfinished = std::find_if(shown_.begin(), shown_.end(),
+                                         [](const auto& work) { return !work->is_whole(); });
+    const bool changed = (*unfinished)->estimate(*light_, errors_);
+    if (is_whole()) {
+        errors_.learn();
+    }
+    forget_what_does_not_fit();
+    return changed;
 }
 
 bool MaterialLayer::advance(double milliseconds) {
@@ -111,20 +132,11 @@ bool MaterialLayer::advance(double milliseconds) {
     for (const auto& work : shown_) {
         changed = work->apply_columns() || changed;
     }
-    while (has_work() && stopwatch.seconds() * 1000 < milliseconds) {
-        const auto unknown = std::find_if(shown_.begin(), shown_.end(),
-                                          [](const auto& work) { return !work->is_known(); });
-        if (unknown != shown_.end()) {
-            changed = (*unknown)->glance(light_) || changed;
-            continue;
+    while (has_work()) {
+        changed = work_a_batch() || changed;
+        if (stopwatch.milliseconds() >= milliseconds) {
+            break;
         }
-        const auto unfinished = std::find_if(
-            shown_.begin(), shown_.end(), [](const auto& work) { return !work->is_whole(); });
-        changed = (*unfinished)->estimate(*light_, errors_) || changed;
-        if (is_whole()) {
-            errors_.learn();
-        }
-        forget_what_does_not_fit();
     }
     awaits_first_look_ =
         awaits_first_look_ && std::any_of(shown_.begin(), shown_.end(),

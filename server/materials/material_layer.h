@@ -36,13 +36,15 @@ class MaterialLayer final : public view::TileAddend {
     // shown under this light are kept while there is room.
     void set_shown(std::vector<ShownMaterial> shown);
 
-    // Works for about so long, or until nothing is left to do. True where what is shown has
-    // changed.
+    // Works for about so long, on one batch of tiles at least, or until nothing is left to do.
+    // True where what is shown has changed.
     bool advance(double milliseconds);
     // Whether the last edit is not to be seen yet.
     [[nodiscard]] bool awaits_first_look() const { return awaits_first_look_; }
     // Whether advance has something left to do.
     [[nodiscard]] bool has_work() const;
+    // Whether all that is shown has columns, by which its curves can be dragged.
+    [[nodiscard]] bool has_columns() const;
     // Whether all that is shown is of whole columns.
     [[nodiscard]] bool is_whole() const;
     // Tiles of materials whose columns are not whole.
@@ -58,6 +60,8 @@ class MaterialLayer final : public view::TileAddend {
     using Works = std::vector<std::unique_ptr<MaterialWork>>;
 
     [[nodiscard]] std::unique_ptr<MaterialWork> work_for(ShownMaterial shown, Works& before);
+    // Expects that there is work.
+    bool work_a_batch();
     void forget_what_does_not_fit();
     [[nodiscard]] bool may_grow() const;
 

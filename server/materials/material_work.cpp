@@ -106,6 +106,11 @@ void MaterialWork::count() {
     }
 }
 
+bool MaterialWork::has_columns() const {
+    return std::all_of(tiles_.begin(), tiles_.end(),
+                       [](const Tile& tile) { return tile.columns != nullptr; });
+}
+
 bool MaterialWork::apply_columns() {
     std::vector<Tile*> due;
     for (Tile& tile : tiles_) {

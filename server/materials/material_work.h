@@ -57,6 +57,8 @@ class MaterialWork {
     bool apply_columns();
     // Whether every tile shows at least a glance of what is asked for.
     [[nodiscard]] bool is_known() const { return known_ == tiles_.size(); }
+    // Whether every tile has columns, so that a curve can be dragged.
+    [[nodiscard]] bool has_columns() const;
     [[nodiscard]] bool is_whole() const { return whole_ == tiles_.size(); }
     [[nodiscard]] std::size_t tiles_to_come() const { return tiles_.size() - whole_; }
 

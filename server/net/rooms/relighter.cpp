@@ -135,8 +135,12 @@ bool Relighter::at_rest() const {
             (!materials_->layer.awaits_first_look() && stated_error() <= enough));
 }
 
-// What the light's image lacks and what materials lack are independent.
+// What the light's image lacks and what materials lack are independent. Of an edit that is not
+// to be seen yet nothing is known.
 double Relighter::stated_error() const {
+    if (materials_ && materials_->layer.awaits_first_look()) {
+        return 1;
+    }
     const double of_light = session_.stated_error();
     const double of_materials = materials_ ? materials_->layer.error() : 0;
     if (of_materials == 0) {

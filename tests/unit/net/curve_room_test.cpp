@@ -6,6 +6,7 @@
 #include "server/net/rooms/relighter.h"
 #include "tests/support/scratch_directory.h"
 #include "tests/support/tiny_curves.h"
+#include "tests/unit/net/exact_picture.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -67,16 +68,7 @@ class CurveRoom : public testing::Test {
         }
         return images - 1;
     }
-    std::vector<std::uint16_t> picture() {
-        const Picture picture =
-            relighter_->picture({}, {.displays = {}, .half_planes = true}, 0);
-        EXPECT_TRUE(picture.header.exact);
-        std::vector<std::uint16_t> bits;
-        for (const auto value : picture.composer->half_image().values) {
-            bits.push_back(value.bits());
-        }
-        return bits;
-    }
+    std::vector<std::uint16_t> picture() { return exact_picture(*relighter_); }
     // The signal by its definition in the contract.
     [[nodiscard]] std::vector<float> signal() const {
         const auto curves = scene_->loaded->curves();

@@ -2,6 +2,7 @@
 #include "server/net/rooms/relighter.h"
 
 #include "protocol/wire/room_patch.h"
+#include "tests/unit/net/exact_picture.h"
 #include "tests/unit/net/tiny_scenes.h"
 
 #include <gtest/gtest.h>
@@ -51,16 +52,7 @@ class RelighterTest : public testing::Test {
         }
     }
     // All bits of the half image.
-    std::vector<std::uint16_t> picture() {
-        const Picture picture =
-            relighter_->picture({}, {.displays = {}, .half_planes = true}, 0);
-        EXPECT_TRUE(picture.header.exact);
-        std::vector<std::uint16_t> bits;
-        for (const auto value : picture.composer->half_image().values) {
-            bits.push_back(value.bits());
-        }
-        return bits;
-    }
+    std::vector<std::uint16_t> picture() { return exact_picture(*relighter_); }
     // How often it has been measured what new light takes.
     [[nodiscard]] int measured_lightings() const {
         const std::string name = "relume_lighting_seconds_count ";

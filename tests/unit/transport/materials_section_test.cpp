@@ -6,6 +6,7 @@
 #include "protocol/transport/transport.h"
 #include "protocol/transport/transport_writer.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/support/tiny_materials.h"
 #include "tests/support/tiny_transport.h"
 #include "tests/unit/transport/broken_bytes.h"
 #include "tests/unit/transport/changed_manifest.h"
@@ -120,16 +121,8 @@ class EditableDirectory : public testing::Test {
         return visibility;
     }
 
-    // Puts the section into the manifest that is there.
     void write(const VisibilityFieldBuilder& visibility, const SeenPointsBuilder& points) {
-        const auto file = path_ / "manifest.json";
-        Manifest manifest = read_manifest(file);
-        manifest.materials =
-            MaterialsSection{.visibility = {.face_resolution = visibility.face_resolution(),
-                                            .file = visibility.write(path_)},
-                             .points = points.write(path_),
-                             .editable = editable()};
-        std::ofstream(file, std::ios::binary) << text_from_manifest(manifest);
+        test::add_materials(path_, visibility, points, editable());
     }
 
     [[nodiscard]] std::string refusal() const {
