@@ -1,11 +1,15 @@
 // relume-lab curves: curves of materials that are edited, how fast and how exactly.
 #include "protocol/base/timing/stopwatch.h"
+#include "protocol/light/light_rig.h"
 #include "tests/lab/commands/commands.h"
+#include "tests/lab/commands/markdown_table.h"
 #include "tests/lab/curves/curve_bases.h"
 #include "tests/lab/curves/curve_convergence.h"
 #include "tests/lab/curves/curve_room.h"
+#include "tests/lab/curves/lit_materials.h"
 #include "tests/lab/curves/measured_curves.h"
 #include "tests/lab/scenes/lab_scenes.h"
+#include "tests/lab/sequences/environment_source.h"
 #include "tests/support/scene_cache.h"
 
 #include <fmt/format.h>
@@ -24,6 +28,7 @@ using nlohmann::json;
 struct Options {
     std::string scene = "earrings";
     std::string edit = "pearl,cloth,post.fresnel";
+    std::string editable = "pearl,cloth,post";
     std::string environment = "studio-softboxes";
     std::uint32_t side = 512;
     std::uint32_t threads = 2;
@@ -38,6 +43,35 @@ std::shared_ptr<const served::Scene> scene_of(const Options& options) {
     return cache.baked(fmt::format("curves-{}-{}", options.scene, options.side),
                        {"--builtin", options.scene, "--edit", options.edit, "--environment",
                         options.environment, "--size", fmt::format("{0}x{0}", options.side)});
+}
+
+// The same view lit, whose materials are edited beside the light.
+std::shared_ptr<const served::Scene> lit_scene_of(const Options& options) {
+    test::SceneCache cache(options.cache);
+    return cache.baked(fmt::format("lit-{}-{}", options.scene, options.side),
+                       {"--builtin", options.scene, "--editable", options.editable, "--size",
+                        fmt::format("{0}x{0}", options.side)});
+}
+
+json lit_materials_of(const Options& options) {
+    const auto scene = lit_scene_of(options);
+    light::LightRig rig;
+    rig.environment = load_environment(options.environment, scene->face_resolution());
+    light::LightCubemap light;
+    light::evaluate(rig, scene->face_resolution(), light);
+    json rows = json::array();
+    for (const LitMaterial& found : take_up_curves(scene, light, options.images)) {
+        rows.push_back({{"material", found.id},
+                        {"points", found.points},
+                        {"first_look_s", found.first_look_s},
+                        {"seconds_to_take_up", found.columns_s},
+                        {"whole_s", found.whole_s},
+                        {"first_look_error", found.first_look_error},
+                        {"taken_up_error", found.columns_error},
+                        {"images_per_s", found.images_per_s},
+                        {"bytes", found.bytes}});
+    }
+    return rows;
 }
 
 // Images per second, each with its JPEG, of a curve that changes with every image.
@@ -141,12 +175,7 @@ json factors_of_measured() {
     return rows;
 }
 
-int run(const Options& options) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    options.threads);
-    const auto scene = scene_of(options);
-    const transport::Transport& transport = scene->transport();
-    const auto curves = static_cast<std::uint32_t>(scene->curves().size());
+json figures_of(const std::shared_ptr<const served::Scene>& scene, const Options& options) {
     const relighting::Budget terms{
         .milliseconds = {}, .coefficients = options.columns, .target_error = 0};
     const relighting::Strategy incremental{.method = relighting::Method::bi,
@@ -169,56 +198,75 @@ int run(const Options& options) {
         figures[fmt::format("images_to_exact_{}", name_of(change))] =
             images_to_exact_after_one_change(scene, 0, change, options.columns, kChanges);
     }
+    const auto bytes = static_cast<double>(scene->transport().total_bytes());
+    const auto curves = static_cast<double>(scene->curves().size());
     const auto pixels = static_cast<double>(scene->image().width) * scene->image().height;
-    figures["bytes"] = transport.total_bytes();
-    figures["bytes_a_material"] = static_cast<double>(transport.total_bytes()) / curves;
-    figures["bytes_gain_over_dense"] = pixels * 3 * sizeof(float) * curve::kCurveSamples *
-                                       curves / static_cast<double>(transport.total_bytes());
-    const json configuration{{"scene", options.scene},
-                             {"edit", options.edit},
-                             {"environment", options.environment},
-                             {"side", options.side},
-                             {"threads", options.threads},
-                             {"columns", options.columns},
-                             {"curves", curves}};
-    const json convergence = convergence_of(scene);
-    const json bases = bases_of(transport);
-    const json measured = factors_of_measured();
-    if (options.as_json) {
-        fmt::print("{}\n", json{{"configuration", configuration},
-                                {"figures", figures},
-                                {"convergence", convergence},
-                                {"bases", bases},
-                                {"measured", measured}}
-                               .dump(2));
-        return 0;
-    }
-    for (const auto& [key, value] : configuration.items()) {
+    figures["bytes"] = bytes;
+    figures["bytes_a_material"] = bytes / curves;
+    figures["bytes_gain_over_dense"] =
+        pixels * 3 * sizeof(float) * curve::kCurveSamples * curves / bytes;
+    return figures;
+}
+
+void print_tables(const json& all) {
+    for (const auto& [key, value] : all["configuration"].items()) {
         fmt::print("{:28} {}\n", key, value.dump());
     }
-    for (const auto& [key, value] : figures.items()) {
+    for (const auto& [key, value] : all["figures"].items()) {
         fmt::print("| `{}` | {:.4g} |\n", key, value.get<double>());
     }
-    fmt::print(
-        "\n| change | columns | NWA | to exact | BI | to exact |\n|---|---|---|---|---|---|\n");
-    for (const json& row : convergence) {
-        fmt::print("| {} | {} | {:.3g} | {} | {:.3g} | {} |\n",
-                   row["change"].get<std::string>(), row["columns"].get<int>(),
-                   row["nwa"]["error"].get<double>(), row["nwa"]["images_to_exact"].get<int>(),
-                   row["bi"]["error"].get<double>(), row["bi"]["images_to_exact"].get<int>());
-    }
-    fmt::print(
-        "\n| change | terms | Daubechies-4 | Haar | B-splines |\n|---|---|---|---|---|\n");
-    for (const json& row : bases) {
-        fmt::print("| {} | {} | {:.3g} | {:.3g} | {:.3g} |\n", row["change"].get<std::string>(),
-                   row["terms"].get<int>(), row["daubechies4"].get<double>(),
-                   row["haar"].get<double>(), row["splines"].get<double>());
-    }
-    fmt::print("\n| measured | method | relative L2 | logarithmic |\n|---|---|---|---|\n");
-    for (const json& row : measured) {
-        fmt::print("| {} | {} | {:.3g} | {:.3g} |\n", row["material"].get<std::string>(),
-                   row["method"].get<std::string>(), row["relative_l2"].get<double>(),
-                   row["logarithmic"].get<double>());
+    print_markdown_table({{"change", "change"},
+                          {"columns", "columns"},
+                          {"NWA", "nwa/error"},
+                          {"to exact", "nwa/images_to_exact"},
+                          {"BI", "bi/error"},
+                          {"to exact", "bi/images_to_exact"}},
+                         all["convergence"]);
+    print_markdown_table({{"change", "change"},
+                          {"terms", "terms"},
+                          {"Daubechies-4", "daubechies4"},
+                          {"Haar", "haar"},
+                          {"B-splines", "splines"}},
+                         all["bases"]);
+    print_markdown_table({{"measured", "material"},
+                          {"method", "method"},
+                          {"relative L2", "relative_l2"},
+                          {"logarithmic", "logarithmic"}},
+                         all["measured"]);
+    print_markdown_table({{"beside light", "material"},
+                          {"points", "points"},
+                          {"first look, s", "first_look_s"},
+                          {"error", "first_look_error"},
+                          {"taken up, s", "seconds_to_take_up"},
+                          {"error", "taken_up_error"},
+                          {"whole, s", "whole_s"},
+                          {"images/s", "images_per_s"},
+                          {"bytes", "bytes"}},
+                         all["lit"]);
+}
+
+int run(const Options& options) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    options.threads);
+    const auto scene = scene_of(options);
+    const json all{{"configuration",
+                    {{"scene", options.scene},
+                     {"edit", options.edit},
+                     {"editable", options.editable},
+                     {"environment", options.environment},
+                     {"side", options.side},
+                     {"threads", options.threads},
+                     {"columns", options.columns},
+                     {"curves", scene->curves().size()}}},
+                   {"figures", figures_of(scene, options)},
+                   {"convergence", convergence_of(scene)},
+                   {"bases", bases_of(scene->transport())},
+                   {"measured", factors_of_measured()},
+                   {"lit", lit_materials_of(options)}};
+    if (options.as_json) {
+        fmt::print("{}\n", all.dump(2));
+    } else {
+        print_tables(all);
     }
     return 0;
 }
@@ -231,6 +279,9 @@ Command add_curves_command(CLI::App& program) {
         program.add_subcommand("curves", "speed and errors of curves that are edited");
     app->add_option("--scene", options->scene, "built-in scene")->capture_default_str();
     app->add_option("--edit", options->edit, "its materials, as relume-bake takes them")
+        ->capture_default_str();
+    app->add_option("--editable", options->editable,
+                    "its materials that are edited beside the light, likewise")
         ->capture_default_str();
     app->add_option("--environment", options->environment,
                     "file, or name of one made by formula")
