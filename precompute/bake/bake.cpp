@@ -119,7 +119,8 @@ std::unique_ptr<BakeSubject> make_subject(const RayCaster& caster,
                                               edits->materials);
     }
     if (parameters.receivers == ReceiverKind::vertices) {
-        return std::make_unique<MeshSubject>(caster, parameters, measured, hooks.should_stop);
+        return std::make_unique<MeshSubject>(caster, parameters, measured, hooks.should_stop,
+                                             fields);
     }
     return std::make_unique<ImageSubject>(caster, parameters, fields);
 }
@@ -140,6 +141,9 @@ class Bake {
           progress_(hooks, subject_->receivers().receiver_count()) {
         TracedReceivers::check_memory(subject_->receivers(), parameters);
         subject_->check();
+        if (const auto points = subject_->field_point_count(); points && hooks.on_note) {
+            hooks.on_note(field_bytes_text(*points, fields.resolution_of(parameters)));
+        }
         rows_ = subject_->rows();
         manifest_.generator = generator();
         manifest_.bake = json_from_parameters(parameters);

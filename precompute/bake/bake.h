@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace relume::bake {
@@ -33,11 +34,13 @@ struct BakeProgress {
 };
 
 struct BakeHooks {
+    // Told what the bake is about to do, in words: one line each, before the first receiver.
+    std::function<void(const std::string&)> on_note{};
     // Called from time to time, by one thread at a time.
-    std::function<void(const BakeProgress&)> on_progress;
+    std::function<void(const BakeProgress&)> on_progress{};
     // Asked from time to time, by any thread. When it says true the bake ends with
     // BakeInterrupted, and the shards that are finished stay.
-    std::function<bool()> should_stop;
+    std::function<bool()> should_stop{};
 };
 
 // How it went; the rest is in the manifest.

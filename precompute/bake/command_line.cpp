@@ -45,9 +45,12 @@ void add_field_options(CLI::App& app, Arguments& arguments) {
         ->delimiter(',')
         ->take_all()
         ->allow_extra_args(false);
+    app.add_flag("--fields", arguments.fields.of_vertices,
+                 "With --receivers vertices: beside the light, store what every vertex sees of "
+                 "it");
     app.add_option("--visibility-resolution", arguments.fields.resolution,
-                   "Texels along a face of the cubemap that points see, 4 to the light's [the "
-                   "light's]");
+                   "Texels along a face of the cubemap that points see: 4 to the light's, of "
+                   "vertices to 256 [the light's]");
 }
 
 void add_bake_options(CLI::App& app, Arguments& arguments) {

@@ -270,6 +270,10 @@ int run_bake(const Arguments& arguments) {
     {
         ProgressLine line(stderr);
         const BakeHooks hooks{
+            .on_note =
+                [](const std::string& note) {
+                    std::fprintf(stderr, "relume-bake: %s\n", note.c_str());
+                },
             .on_progress = [&](const BakeProgress& progress) { line.update(progress); },
             .should_stop = [] { return stop_requested.load(); }};
         summary =

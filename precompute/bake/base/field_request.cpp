@@ -33,23 +33,30 @@ void check_fields(const FieldRequest& request, const BakeParameters& parameters)
         if (request.resolution) {
             throw program::UsageError(
                 fmt::format("--visibility-resolution is {}: nothing's visibility is stored, "
-                            "expected --editable MATERIAL beside it",
+                            "expected --editable MATERIAL or --fields beside it",
                             *request.resolution));
         }
         return;
     }
-    if (parameters.receivers != ReceiverKind::pixels) {
+    const bool is_image = parameters.receivers == ReceiverKind::pixels;
+    if (request.of_vertices && is_image) {
+        throw program::UsageError(
+            "--fields is for the vertices of a surface, expected --receivers vertices beside "
+            "it");
+    }
+    if (!request.editable.empty() && !is_image) {
         throw program::UsageError(
             "--editable is for the pixels of an image, expected no --receivers vertices "
             "beside it");
     }
     check_editable(request.editable);
     const std::uint32_t n = request.resolution_of(parameters);
-    if (!basis::is_face_resolution(n) || n > parameters.face_resolution) {
+    const std::uint32_t most =
+        is_image ? parameters.face_resolution : basis::kMaxFaceResolution;
+    if (!basis::is_face_resolution(n) || n > most) {
         throw program::UsageError(
-            fmt::format("visibility resolution is {}, expected a power of two from {} to the "
-                        "light's {}",
-                        n, basis::kMinFaceResolution, parameters.face_resolution));
+            fmt::format("visibility resolution is {}, expected a power of two from {} to {}{}",
+                        n, basis::kMinFaceResolution, is_image ? "the light's " : "", most));
     }
 }
 

@@ -15,12 +15,12 @@
 namespace relume::bake {
 namespace {
 
-constexpr std::uint32_t kBlocksPerPart = 64;
-
-std::vector<FieldPart> parts_of(std::uint32_t blocks) {
+// A part lies in memory while it is baked.
+std::vector<FieldPart> parts_of(std::uint32_t blocks, std::uint32_t face_resolution) {
+    const std::uint32_t most = face_resolution <= 64 ? 64 : 16;
     std::vector<FieldPart> parts;
-    for (std::uint32_t first = 0; first < blocks; first += kBlocksPerPart) {
-        parts.push_back({first, std::min(kBlocksPerPart, blocks - first)});
+    for (std::uint32_t first = 0; first < blocks; first += most) {
+        parts.push_back({first, std::min(most, blocks - first)});
     }
     return parts;
 }
@@ -104,6 +104,14 @@ std::uint64_t uncompressed_bytes(std::uint64_t points, std::uint32_t face_resolu
     return points * transport::words_of_visibility(face_resolution) * sizeof(std::uint64_t);
 }
 
+std::string field_bytes_text(std::uint64_t points, std::uint32_t face_resolution) {
+    return fmt::format(
+        "visibility of {} points, 6×{n}×{n} bits each: {:.1f} MB before compression, after "
+        "which it lies in memory once",
+        points, static_cast<double>(uncompressed_bytes(points, face_resolution)) / 1e6,
+        fmt::arg("n", face_resolution));
+}
+
 void check_field_bytes(std::uint64_t points,
                        std::uint32_t face_resolution,
                        const char* remedies) {
@@ -136,7 +144,8 @@ BakedFields bake_fields(const RayCaster& caster,
                        .counts = {}};
     const FieldPartsFolder folder(work.directory, work.fingerprint);
     const PartBaker baker(caster, source, texels, work);
-    const std::vector<FieldPart> parts = parts_of(source.block_count());
+    const std::vector<FieldPart> parts =
+        parts_of(source.block_count(), texels.face_resolution());
     for (const FieldPart& part : parts) {
         if (const auto finished = folder.read(part)) {
             work.tick(finished->counts.points, 0, true);

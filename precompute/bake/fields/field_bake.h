@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace relume::bake {
@@ -57,6 +58,8 @@ inline constexpr std::uint64_t kMostFieldBytes = std::uint64_t{1} << 35U;
 
 [[nodiscard]] std::uint64_t uncompressed_bytes(std::uint64_t points,
                                                std::uint32_t face_resolution);
+// The same for people, before the bake begins.
+[[nodiscard]] std::string field_bytes_text(std::uint64_t points, std::uint32_t face_resolution);
 // Throws BakeError, which names `remedies`, where the points have more than kMostFieldBytes.
 void check_field_bytes(std::uint64_t points,
                        std::uint32_t face_resolution,
@@ -66,7 +69,7 @@ void check_field_bytes(std::uint64_t points,
 [[nodiscard]] nlohmann::json json_from_counts(const FieldCounts& counts,
                                               std::uint32_t face_resolution);
 
-// Parts of sixty-four blocks, kept as they are finished. The same source gives the same bytes
+// Parts of some blocks, kept as they are finished. The same source gives the same bytes
 // on any number of threads, resumed or not. Throws BakeError, BakeInterrupted,
 // files::FileError.
 [[nodiscard]] BakedFields bake_fields(const RayCaster& caster,

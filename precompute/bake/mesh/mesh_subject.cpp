@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
 #include <utility>
 
 namespace relume::bake {
@@ -71,7 +72,8 @@ RefinedSurface refined(const RayCaster& caster,
 MeshSubject::MeshSubject(const RayCaster& caster,
                          const BakeParameters& parameters,
                          std::span<const MeasuredBrdf> measured,
-                         const std::function<bool()>& should_stop)
+                         const std::function<bool()>& should_stop,
+                         const FieldRequest& fields)
     : caster_(caster),
       scene_(caster.scene()),
       parameters_(parameters),
@@ -79,7 +81,11 @@ MeshSubject::MeshSubject(const RayCaster& caster,
       camera_(scene_.camera, parameters.width, parameters.height),
       materials_(materials_of(scene_, parameters, measured)),
       surface_(refined(caster, materials_, parameters, should_stop)),
-      vertices_(scene_, surface_, brdfs_of(materials_)) {}
+      vertices_(scene_, surface_, brdfs_of(materials_)) {
+    if (!fields.empty()) {
+        fields_.emplace(caster, vertices_, fields, parameters);
+    }
+}
 
 std::unique_ptr<RowSource> MeshSubject::rows() const {
     return std::make_unique<LightRows>(caster_, vertices_, parameters_);
@@ -116,8 +122,14 @@ void MeshSubject::describe(transport::Manifest& manifest) const {
                        .forward = camera_.forward(),
                        .tan_half_width = camera_.tan_half_width(),
                        .tan_half_height = camera_.tan_half_height()};
+    std::string fields;
+    if (fields_) {
+        manifest.bake.update(fields_->request_json());
+        fields = fields_->request_json().dump();
+    }
     manifest.fingerprint =
-        fingerprint_of(scene_, camera_, parameters_, manifest.generator) ^ measured_hash_;
+        fingerprint_of(scene_, camera_, parameters_, manifest.generator, fields) ^
+        measured_hash_;
 }
 
 nlohmann::json MeshSubject::measured() const {
@@ -132,26 +144,44 @@ nlohmann::json MeshSubject::measured() const {
                          {"error_of_terms", factored.errors}});
     }
     const RefinementReport& report = surface_.report;
-    return {{"brdfs", std::move(brdfs)},
-            {"surface",
-             {{"vertices", surface_.vertex_count()},
-              {"triangles", surface_.mesh.triangles.size()},
-              {"start_vertices", report.start_vertices},
-              {"scene_triangles", report.scene_triangles},
-              {"dropped_triangles", report.dropped_triangles},
-              {"two_sided_triangles", report.two_sided_triangles},
-              {"probes", report.probes},
-              {"rays", report.rays},
-              {"interpolation_error", report.interpolation_error},
-              {"meets_target", report.meets_target}}},
-            {"materials", materials_.notes}};
+    nlohmann::json measured{{"brdfs", std::move(brdfs)},
+                            {"surface",
+                             {{"vertices", surface_.vertex_count()},
+                              {"triangles", surface_.mesh.triangles.size()},
+                              {"start_vertices", report.start_vertices},
+                              {"scene_triangles", report.scene_triangles},
+                              {"dropped_triangles", report.dropped_triangles},
+                              {"two_sided_triangles", report.two_sided_triangles},
+                              {"probes", report.probes},
+                              {"rays", report.rays},
+                              {"interpolation_error", report.interpolation_error},
+                              {"meets_target", report.meets_target}}},
+                            {"materials", materials_.notes}};
+    if (fields_) {
+        measured["visibility"] =
+            json_from_counts(fields_->counts(), fields_->face_resolution());
+    }
+    return measured;
 }
 
 std::vector<float> MeshSubject::coverage() {
     return std::vector<float>(surface_.vertex_count(), 1.0F);
 }
 
+std::optional<std::uint64_t> MeshSubject::field_point_count() const {
+    return fields_ ? std::optional(fields_->point_count()) : std::nullopt;
+}
+
+void MeshSubject::bake_fields(const FieldWork& work) {
+    if (fields_) {
+        fields_->bake(work);
+    }
+}
+
 void MeshSubject::write_tables(transport::TransportWriter& writer) {
+    if (fields_) {
+        fields_->write(writer);
+    }
     writer.write_surface(
         {.mesh = surface_.mesh, .brdfs = materials_.brdfs(), .textures = materials_.textures});
 }

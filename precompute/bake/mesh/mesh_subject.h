@@ -2,12 +2,16 @@
 #pragma once
 
 #include "precompute/bake/bake_subject.h"
+#include "precompute/bake/base/field_request.h"
 #include "precompute/bake/base/parameters.h"
+#include "precompute/bake/fields/vertex_fields.h"
 #include "precompute/bake/mesh/mesh_materials.h"
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/bake/receivers/vertex/refined_surface.h"
 #include "precompute/bake/receivers/vertex/vertex_receivers.h"
 #include "precompute/scene/camera.h"
+
+#include <optional>
 
 namespace relume::bake {
 
@@ -20,7 +24,8 @@ class MeshSubject final : public BakeSubject {
     MeshSubject(const RayCaster& caster,
                 const BakeParameters& parameters,
                 std::span<const MeasuredBrdf> measured,
-                const std::function<bool()>& should_stop);
+                const std::function<bool()>& should_stop,
+                const FieldRequest& fields = {});
 
     [[nodiscard]] const Receivers& receivers() const override { return vertices_; }
     // A vertex lies where it lies.
@@ -30,8 +35,11 @@ class MeshSubject final : public BakeSubject {
     // A surface that can be refined has vertices.
     void check() const override {}
     void describe(transport::Manifest& manifest) const override;
+    // After bake_fields().
     [[nodiscard]] nlohmann::json measured() const override;
     [[nodiscard]] std::vector<float> coverage() override;
+    [[nodiscard]] std::optional<std::uint64_t> field_point_count() const override;
+    void bake_fields(const FieldWork& work) override;
     void write_tables(transport::TransportWriter& writer) override;
     void write_files(const std::filesystem::path& directory) const override;
 
@@ -44,6 +52,7 @@ class MeshSubject final : public BakeSubject {
     MeshMaterials materials_;
     RefinedSurface surface_;
     VertexReceivers vertices_;
+    std::optional<VertexFields> fields_;  // none: nobody asks for what vertices see
 };
 
 }  // namespace relume::bake
