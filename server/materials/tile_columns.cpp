@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace relume::materials {
@@ -31,8 +32,9 @@ TileColumns::TileColumns(std::vector<std::uint8_t> slots, ColumnValues values)
     for (std::size_t channel = 0; channel < 3; ++channel) {
         for (std::size_t sample = 0; sample < curve::kCurveSamples; ++sample) {
             const float* const column = values.column(channel, sample);
-            const float most = *std::max_element(column, column + pixels);
-            if (!(most > 0)) {
+            const float most = std::accumulate(column, column + pixels, 0.0F,
+                                               [](float a, float b) { return std::max(a, b); });
+            if (most == 0) {
                 continue;
             }
             const float step = most / kLargest;
