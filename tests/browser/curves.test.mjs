@@ -4,13 +4,21 @@ import { writeFile } from "node:fs/promises";
 import { describe, it } from "node:test";
 import { readExr, relativeL2 } from "./images.mjs";
 import { relume } from "./programs.mjs";
+import {
+    after,
+    choose,
+    click,
+    highest,
+    isChosen,
+    luminance,
+    mean,
+    pixelsByMaterial,
+    ratio,
+} from "./material_hand.mjs";
 import { output, Suite } from "./suite.mjs";
 
 /** Around the curve, in CSS pixels (client/web/src/curve_canvas.ts). */
 const kMargin = { left: 44, right: 10, top: 10, bottom: 22 };
-
-const luminance = (rgb, i) =>
-    0.2126 * rgb[i * 3] + 0.7152 * rgb[i * 3 + 1] + 0.0722 * rgb[i * 3 + 2];
 
 describe("curves", { timeout: 240_000 }, () => {
     const suite = new Suite("curves");
@@ -19,47 +27,6 @@ describe("curves", { timeout: 240_000 }, () => {
         await page.untilExact();
         return page;
     };
-
-    /** Pixels by the material that they show, as the server maps them. */
-    async function pixelsOf(page) {
-        const scene = (await suite.server.json("/api/scenes")).scenes.find(
-            ({ name }) => name === "worn",
-        );
-        const places = await page.page.evaluate(async () => {
-            const response = await fetch("/api/scenes/worn/materials.png");
-            const bitmap = await createImageBitmap(await response.blob());
-            const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-            const context = canvas.getContext("2d");
-            context.drawImage(bitmap, 0, 0);
-            const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-            return Array.from({ length: data.length / 4 }, (_, i) => data[i * 4]);
-        });
-        return Object.fromEntries(
-            scene.materials.map(({ id }, m) => [
-                id,
-                places.flatMap((place, i) => (place === m + 1 ? [i] : [])),
-            ]),
-        );
-    }
-
-    const mean = (rgb, pixels, of = luminance) =>
-        pixels.reduce((sum, i) => sum + of(rgb, i), 0) / pixels.length;
-    const highest = (rgb, pixels) => Math.max(...pixels.map((i) => luminance(rgb, i)));
-    const ratio = (a, b) => (rgb, pixels) =>
-        mean(rgb, pixels, (values, i) => values[i * 3 + a]) /
-        mean(rgb, pixels, (values, i) => values[i * 3 + b]);
-
-    /** The exact image after an edit of `id`, whose entry has to be another one. */
-    async function after(page, id, act) {
-        const read = () => page.page.evaluate((key) => window.relume.state.materials[key], id);
-        const before = JSON.stringify(await read());
-        await act();
-        await page.sees(async () =>
-            assert.ok(JSON.stringify(await read()) !== before, `${id} is another one`),
-        );
-        await page.untilExact();
-        return page.shown();
-    }
 
     /** A place in the picture of the curve: parts of its width and height, from the lower left. */
     async function place(page, u, height) {
@@ -80,22 +47,6 @@ describe("curves", { timeout: 240_000 }, () => {
         await mouse.up();
     }
 
-    /** Clicks the image where it shows the material. */
-    async function click(page, pixels, { width, height }) {
-        const i = pixels[Math.floor(pixels.length / 2)];
-        const box = await page.page.locator("#image-frame").boundingBox();
-        await page.page.mouse.click(
-            box.x + (((i % width) + 0.5) / width) * box.width,
-            box.y + ((Math.floor(i / width) + 0.5) / height) * box.height,
-        );
-    }
-
-    const isChosen = (page, id) =>
-        page.sees(async () => {
-            const row = page.page.locator(`[data-material="${id}"]`);
-            assert.equal(await row.getAttribute("aria-pressed"), "true");
-        });
-    const choose = (page, id) => page.page.locator(`[data-material="${id}"]`).click();
     const tool = (page, name) => page.page.locator(`[data-tool="${name}"]`).click();
     const picture = (page, name) => page.page.screenshot({ path: output(`curves-${name}.png`) });
     const isEdited = (page, id) =>
@@ -103,7 +54,7 @@ describe("curves", { timeout: 240_000 }, () => {
 
     it("takes earrings from dull to golden: sharper, hazy, another cloth, gold", async (test) => {
         const page = await worn("figure");
-        const pixels = await pixelsOf(page);
+        const pixels = await pixelsByMaterial(suite, page, "worn");
         const baked = await page.shown();
         await choose(page, "cloth");
         await click(page, pixels.pearl, baked.header);
