@@ -10,22 +10,29 @@ std::size_t MaterialField::byte_count() const {
     return bytes;
 }
 
-FieldPlace place_in_field(const MaterialField& field,
+FieldPlace place_in_grids(const DirectionGrid& normals,
+                          const DirectionGrid& reflections,
                           const Imath::V3f& normal,
                           const Imath::V3f& reflection) {
     FieldPlace place;
-    const auto reflections = field.reflections.nodes_near(reflection);
-    for (const DirectionGrid::Node& of_normal : field.normals.nodes_near(normal)) {
-        for (const DirectionGrid::Node& of_reflection : reflections) {
+    const auto near_reflection = reflections.nodes_near(reflection);
+    for (const DirectionGrid::Node& of_normal : normals.nodes_near(normal)) {
+        for (const DirectionGrid::Node& of_reflection : near_reflection) {
             const float weight = of_normal.weight * of_reflection.weight;
             if (weight != 0) {
                 place.entries[place.count++] = {
-                    .index = field.entry_index(of_normal.index, of_reflection.index),
+                    .index = of_normal.index * reflections.node_count() + of_reflection.index,
                     .weight = weight};
             }
         }
     }
     return place;
+}
+
+FieldPlace place_in_field(const MaterialField& field,
+                          const Imath::V3f& normal,
+                          const Imath::V3f& reflection) {
+    return place_in_grids(field.normals, field.reflections, normal, reflection);
 }
 
 }  // namespace relume::tripling

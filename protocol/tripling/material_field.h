@@ -64,6 +64,10 @@ struct FieldPlace {
 }
 
 // Quadrilinear: continuous in both directions. `normal` and `reflection` are unit.
+[[nodiscard]] FieldPlace place_in_grids(const DirectionGrid& normals,
+                                        const DirectionGrid& reflections,
+                                        const Imath::V3f& normal,
+                                        const Imath::V3f& reflection);
 [[nodiscard]] FieldPlace place_in_field(const MaterialField& field,
                                         const Imath::V3f& normal,
                                         const Imath::V3f& reflection);

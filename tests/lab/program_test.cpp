@@ -214,6 +214,48 @@ TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
     EXPECT_LT(figures.at("error_5_images_after_rest").get<double>(), 0.02);
 }
 
+TEST_F(ProgramTest, TripleComparesWaysToIntegrate) {
+    const nlohmann::json found =
+        nlohmann::json::parse(test::run_to_end(RELUME_LAB,
+                                               {"triple",
+                                                "--scene",
+                                                "box",
+                                                "--environment",
+                                                "sky-noon",
+                                                "--vertices",
+                                                "1500",
+                                                "-n",
+                                                "8",
+                                                "--side",
+                                                "24",
+                                                "--material",
+                                                "lambert",
+                                                "--peer-vertices",
+                                                "20",
+                                                "--images",
+                                                "2",
+                                                "--pictures",
+                                                output().string(),
+                                                "--json"},
+                                               scratch_.path(), "relume-lab"));
+    EXPECT_GT(found.at("visibility").at("seen_vertices").get<int>(), 0);
+    EXPECT_GT(found.at("visibility").at("bytes_per_vertex").get<double>(), 0);
+    const nlohmann::json& material = found.at("materials").at(0);
+    for (const char* key : {"seconds_per_image", "ratio_to_bits", "ratio_to_decompressed",
+                            "ratio_to_published", "ratio_to_pixels"}) {
+        EXPECT_GT(material.at(key).get<double>(), 0) << key;
+    }
+    EXPECT_LT(material.at("error_bits").get<double>(), 1e-3);
+    // With the most terms the sublinear algorithm errs less than with the fewest.
+    EXPECT_LT(material.at("grid").back().at("error").get<double>(),
+              material.at("grid").front().at("error").get<double>());
+    // All of them: as far as single precision goes.
+    EXPECT_LT(material.at("terms").back().at("error").get<double>(), 0.2);
+    EXPECT_GT(material.at("moving").at("images_per_s_light_and_view").get<double>(), 0);
+    EXPECT_EQ(content_of(output() / "triple-lambert.png").substr(1, 3), "PNG");
+    EXPECT_NE(content_of(output() / "triple-terms.svg").find("</svg>"), std::string::npos);
+}
+
 TEST_F(ProgramTest, ViewTermsLeavesAChartAndErrorsOfEveryNumberOfTerms) {
     const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
         RELUME_LAB,

@@ -6,8 +6,12 @@
 #include "precompute/bake/receivers/vertex/vertex_receivers.h"
 #include "precompute/bake/rows/path_tracer.h"
 #include "precompute/bake/rows/row_baker.h"
+#include "precompute/materials/field_baker.h"
 #include "precompute/scene/builtin.h"
+#include "protocol/basis/cubemap.h"
 #include "protocol/transport/hash.h"
+#include "protocol/tripling/texel_store.h"
+#include "server/engine/kernels/open_mixture.h"
 #include "tests/laws/bake_estimate.h"
 #include "tests/laws/law_light.h"
 #include "tests/laws/picture_comparison.h"
@@ -154,6 +158,72 @@ reference::TracedImage reference_of(const LitSurface& lit,
     return image;
 }
 
+// Whether a random ray through the part of a texel above the surface leaves the scene.
+bool sees_texel(const LitSurface& lit,
+                const bake::ReceiverSurface& point,
+                std::uint32_t n,
+                std::size_t texel,
+                reference::Random& random) {
+    const basis::Texel place = basis::texel_from_index(n, texel);
+    constexpr int kTries = 64;
+    for (int tries = 0; tries < kTries; ++tries) {
+        const auto along = [&](std::uint32_t at) {
+            return static_cast<float>(2 * (at + random.uniform()) / n - 1);
+        };
+        const V3f direction =
+            basis::cube_point_from_face_point(
+                {.face = place.face, .u = along(place.column), .v = along(place.row)})
+                .normalized();
+        if (direction.dot(point.point.geometric_normal) > 0) {
+            const auto origin = static_cast<std::size_t>(
+                random.uniform() * static_cast<double>(point.origins.size()));
+            return !lit.caster.is_occluded(point.origins[origin], direction);
+        }
+    }
+    return false;
+}
+
+// Radiance of vertices as light times visibility times material: a bit a texel, and the field
+// of a Lambert material.
+std::vector<V3d> radiance_from_bits(const LitSurface& lit,
+                                    const std::vector<std::size_t>& looked,
+                                    std::uint32_t n,
+                                    const std::vector<V3f>& light,
+                                    std::uint64_t seed) {
+    const materials::FieldModel lambert = materials::lambert_model();
+    const materials::TexelSamples samples(n, 4);
+    std::array<std::vector<float>, 3> planes;
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (const V3f& texel : light) {
+            planes[c].push_back(texel[static_cast<int>(c)]);
+        }
+    }
+    std::vector<V3d> radiance(looked.size(), V3d(0));
+    tbb::parallel_for(std::size_t{0}, looked.size(), [&](std::size_t i) {
+        const bake::Receiver receiver = lit.vertices.look(looked[i]);
+        const bake::ReceiverSurface& point = receiver.surfaces.front();
+        const V3f normal = lit.surface.mesh.normals[looked[i]];
+        const auto material = materials::lobe_texels(lambert, samples, normal, normal).front();
+        reference::Random random(transport::mix_bits(seed + 1000 * looked[i]));
+        std::vector<std::uint64_t> open((light.size() + 63) / 64, 0);
+        for (std::size_t texel = 0; texel < light.size(); ++texel) {
+            if (material[texel] > 0 && sees_texel(lit, point, n, texel, random)) {
+                open[texel / 64] |= std::uint64_t{1} << texel % 64;
+            }
+        }
+        tripling::TexelStore store(n);
+        store.append(material, 0);
+        const std::array one{engine::WeightedTexels{.weight = 1, .function = store.view(0)}};
+        const auto sum = engine::sum_open_mixture(
+            open, {planes[0].data(), planes[1].data(), planes[2].data()}, one);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto colour = static_cast<int>(c);
+            radiance[i][colour] = double{sum[c]} * lit.albedo(looked[i])[colour];
+        }
+    });
+    return radiance;
+}
+
 class VertexLaw : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(VertexLaw, DiffuseRadianceEqualsTheReference) {
@@ -186,6 +256,50 @@ TEST_P(VertexLaw, DiffuseRadianceEqualsTheReference) {
         mean *= 1.1;
     }
     EXPECT_FALSE(compare(brighter, truth, options.samples, 0.01, 0.002).is_same());
+}
+
+// Direct light from visibility and material fields is that of a path tracer.
+TEST(TripleProductLaw, DirectRadianceEqualsTheReference) {
+    const LitSurface lit("box");
+    std::vector<std::size_t> looked;
+    for (std::size_t i = 0; i < kLooked; ++i) {
+        looked.push_back(transport::mix_bits(i) % lit.surface.vertex_count());
+    }
+    constexpr std::uint32_t n = 32;
+    const auto texels = cubemap_from_function(n, sun_and_gradient);
+    constexpr std::uint32_t kSeedsOfBits = 32;
+    std::vector<SampleMoments<V3d>> moments(looked.size(), SampleMoments<V3d>(V3d(0)));
+    for (std::uint32_t seed = 1; seed <= kSeedsOfBits; ++seed) {
+        const std::vector<V3d> radiance = radiance_from_bits(lit, looked, n, texels, seed);
+        for (std::size_t i = 0; i < looked.size(); ++i) {
+            moments[i].add(radiance[i]);
+        }
+    }
+    Estimate ours{.mean = {}, .variance = {}, .seeds = kSeedsOfBits};
+    for (const SampleMoments<V3d>& of : moments) {
+        ours.mean.push_back(of.mean());
+        ours.variance.push_back(of.variance_of_mean());
+    }
+    const reference::TraceOptions options{.width = 1,
+                                          .height = 1,
+                                          .samples = 256,
+                                          .bounces = 0,
+                                          .seed = 7,
+                                          .filter = reference::PixelFilter::centre};
+    const reference::TracedImage truth =
+        reference_of(lit, looked, reference::Sky::from_cubemap(n, texels), options);
+    const auto rays = options.samples * static_cast<std::uint32_t>(bake::kPacketSize);
+    // Within a texel, what is open and how much it counts are multiplied as their means.
+    constexpr double kTexelResolution = 0.01;
+    const PictureComparison comparison = compare(ours, truth, rays, 0.01, kTexelResolution);
+    std::cout << "  triple products: " << comparison.summary() << '\n';
+    EXPECT_TRUE(comparison.is_same()) << comparison.summary();
+
+    Estimate brighter = ours;
+    for (V3d& mean : brighter.mean) {
+        mean *= 1.1;
+    }
+    EXPECT_FALSE(compare(brighter, truth, rays, 0.01, kTexelResolution).is_same());
 }
 
 INSTANTIATE_TEST_SUITE_P(Bounces, VertexLaw, testing::Values(0U, 2U));

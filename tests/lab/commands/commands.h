@@ -26,5 +26,6 @@ struct Command {
 [[nodiscard]] Command add_view_terms_command(CLI::App& program);
 [[nodiscard]] Command add_cpca_command(CLI::App& program);
 [[nodiscard]] Command add_stability_command(CLI::App& program);
+[[nodiscard]] Command add_triple_command(CLI::App& program);
 
 }  // namespace relume::lab

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace relume::materials {
@@ -168,6 +170,76 @@ TEST(FieldBaker, InterpolationApproachesTheModelAsGridsGrow) {
         const double relative = std::sqrt(error / norm);
         EXPECT_LT(relative, 0.5 * before) << "side " << side;
         before = relative;
+    }
+}
+
+// A direction that goes round the cube changes what a field gives by little, wherever it
+// crosses from face to face.
+TEST(FieldBaker, FieldsAreContinuousAcrossEdgesOfFaces) {
+    FieldReport report;
+    const tripling::MaterialField phong =
+        bake_field(phong_model(20),
+                   {.face_resolution = 16, .reflection_side = 9, .energy_fraction = 1}, report);
+    const tripling::MaterialField lambert =
+        bake_field(lambert_model(),
+                   {.face_resolution = 16, .normal_side = 5, .energy_fraction = 1}, report);
+    // Brighter on one side, so that what is at stake is more than the sum of all texels.
+    std::vector<float> light;
+    for (std::size_t i = 0; i < basis::texel_count(16); ++i) {
+        const auto direction = basis::direction_from_texel(16, basis::texel_from_index(16, i));
+        light.push_back(std::exp(2 * direction.dot(Imath::V3f(0.6F, 0.64F, 0.48F))));
+    }
+    for (const auto& [field, name] :
+         {std::pair(&phong, "phong"), std::pair(&lambert, "lambert")}) {
+        constexpr int kSteps = 720;
+        constexpr double kMostChange = 0.03;
+        double before = 0;
+        for (int i = 0; i <= kSteps; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kSteps;
+            // Through six faces, and close to a corner.
+            const Imath::V3f direction = Imath::V3f(static_cast<float>(std::cos(angle)),
+                                                    static_cast<float>(std::sin(angle)),
+                                                    static_cast<float>(std::sin(angle + 0.8)))
+                                             .normalized();
+            const auto texels =
+                mixed_texels(*field, 0, tripling::place_in_field(*field, direction, direction));
+            const double sum =
+                std::inner_product(texels.begin(), texels.end(), light.begin(), 0.0);
+            if (i > 0) {
+                EXPECT_NEAR(sum, before, kMostChange * before) << name << " at step " << i;
+            }
+            before = sum;
+        }
+    }
+}
+
+// Entries beside a grazing one have viewers below the horizon: no energy is made there, and
+// nothing is undefined.
+TEST(FieldBaker, ViewersBelowTheHorizonMakeNoEnergy) {
+    const TexelSamples samples(16, 2);
+    std::mt19937 random(7);
+    for (const float roughness : {0.1F, 0.4F, 1.0F}) {
+        const auto bsdf = scene::Bsdf::ggx(Imath::V3f(1), 0, roughness);
+        const FieldModel model = lobes_model("ggx", factors::lobes_of(bsdf));
+        for (int i = 0; i < 40; ++i) {
+            const Imath::V3f normal = random_direction(random);
+            Imath::V3f viewer = random_direction(random);
+            if (viewer.dot(normal) > 0.05F) {
+                viewer = -viewer;  // below, or just above
+            }
+            const auto lobes =
+                lobe_texels(model, samples, normal, tripling::mirrored(viewer, normal));
+            double white = 0;
+            for (std::size_t lobe = 0; lobe < lobes.size(); ++lobe) {
+                for (const float value : lobes[lobe]) {
+                    ASSERT_TRUE(std::isfinite(value)) << roughness;
+                    white += double{model.colours[lobe].x} * value;
+                }
+            }
+            EXPECT_GE(white, 0) << roughness;
+            // A highlight at grazing angles is sharper than the texels' four samples.
+            EXPECT_LE(white, 1.6) << roughness;
+        }
     }
 }
 

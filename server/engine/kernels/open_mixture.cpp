@@ -1,0 +1,157 @@
+// Sums over open texels times a mixture, for every instruction set Highway knows.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "server/engine/kernels/open_mixture.cpp"
+#include "server/engine/kernels/open_mixture.h"
+
+#include "server/engine/kernels/target.h"
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace relume::engine::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR  // no fused multiply-add: the specification does
+
+std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
+                                           const ColourPlanes& planes,
+                                           std::span<const WeightedTexels> functions) {
+    return sum_open_mixture_scalar(open, planes, functions);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
+                                           const ColourPlanes& planes,
+                                           std::span<const WeightedTexels> functions) {
+    constexpr std::size_t kSums = 16;
+    const hn::CappedTag<float, kSums> d;
+    constexpr std::size_t kLanes = hn::MaxLanes(d);
+    constexpr std::size_t kVectors = kSums / kLanes;
+    hn::Vec<decltype(d)> partial[3][kVectors];
+    for (auto& colour : partial) {
+        for (auto& vector : colour) {
+            vector = hn::Zero(d);
+        }
+    }
+    // Functions that have the run at hand.
+    std::array<const float*, kMostMixed> values;
+    std::array<float, kMostMixed> weights;
+    for (std::size_t word = 0; 64 * word < open.size(); ++word) {
+        std::uint64_t any = 0;
+        for (const WeightedTexels& part : functions) {
+            any |= part.function.words[word];
+        }
+        for (; any != 0; any &= any - 1) {
+            const std::size_t run = 64 * word + static_cast<std::size_t>(std::countr_zero(any));
+            const std::uint64_t bits = open[run];
+            if (bits == 0) {
+                continue;
+            }
+            std::size_t count = 0;
+            for (const WeightedTexels& part : functions) {
+                if (const float* of_run = tripling::values_of_run(part.function, run)) {
+                    values[count] = of_run;
+                    weights[count] = part.weight;
+                    ++count;
+                }
+            }
+            for (std::size_t first = 0; first < tripling::kRunTexels; first += kSums) {
+                for (std::size_t i = 0; i < kVectors; ++i) {
+                    const std::size_t lane = first + i * kLanes;
+                    const std::uint64_t of_vector = bits >> lane;
+                    auto mixed = hn::Zero(d);
+                    for (std::size_t part = 0; part < count; ++part) {
+                        mixed = hn::MulAdd(hn::Set(d, weights[part]),
+                                           hn::LoadU(d, values[part] + lane), mixed);
+                    }
+                    std::uint8_t mask_bytes[8];
+                    std::memcpy(mask_bytes, &of_vector, sizeof(mask_bytes));
+                    mixed = hn::IfThenElseZero(hn::LoadMaskBits(d, mask_bytes), mixed);
+                    const std::size_t texel = tripling::kRunTexels * run + lane;
+                    for (std::size_t colour = 0; colour < 3; ++colour) {
+                        partial[colour][i] = hn::MulAdd(hn::LoadU(d, planes[colour] + texel),
+                                                        mixed, partial[colour][i]);
+                    }
+                }
+            }
+        }
+    }
+    std::array<float, 3> radiance{};
+    for (std::size_t colour = 0; colour < radiance.size(); ++colour) {
+        alignas(64) float lanes[kSums];
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            hn::Store(partial[colour][i], d, lanes + i * kLanes);
+        }
+        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
+            for (std::size_t i = 0; i < half; ++i) {
+                lanes[i] += lanes[i + half];
+            }
+        }
+        radiance[colour] = lanes[0];
+    }
+    return radiance;
+}
+
+#endif
+}  // namespace relume::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace relume::engine {
+namespace {
+
+HWY_EXPORT(sum_open_mixture_loop);
+
+}  // namespace
+
+std::array<float, 3> sum_open_mixture_scalar(std::span<const std::uint64_t> open,
+                                             const ColourPlanes& planes,
+                                             std::span<const WeightedTexels> functions) {
+    constexpr std::size_t kSums = 16;
+    std::array<std::array<float, kSums>, 3> sums{};
+    for (std::size_t texel = 0; texel < 64 * open.size(); ++texel) {
+        if ((open[texel / 64] >> texel % 64 & 1U) == 0) {
+            continue;
+        }
+        float mixed = 0;
+        for (const WeightedTexels& part : functions) {
+            if (const float* values = tripling::values_of_run(part.function, texel / 64)) {
+                mixed = std::fma(part.weight, values[texel % 64], mixed);
+            }
+        }
+        for (std::size_t colour = 0; colour < sums.size(); ++colour) {
+            float& sum = sums[colour][texel % kSums];
+            sum = std::fma(planes[colour][texel], mixed, sum);
+        }
+    }
+    std::array<float, 3> radiance{};
+    for (std::size_t colour = 0; colour < radiance.size(); ++colour) {
+        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
+            for (std::size_t i = 0; i < half; ++i) {
+                sums[colour][i] += sums[colour][i + half];
+            }
+        }
+        radiance[colour] = sums[colour][0];
+    }
+    return radiance;
+}
+
+std::array<float, 3> sum_open_mixture(std::span<const std::uint64_t> open,
+                                      const ColourPlanes& planes,
+                                      std::span<const WeightedTexels> functions) {
+    if (scalar_is_forced()) {
+        return sum_open_mixture_scalar(open, planes, functions);
+    }
+    apply_forced_target();
+    return HWY_DYNAMIC_DISPATCH(sum_open_mixture_loop)(open, planes, functions);
+}
+
+}  // namespace relume::engine
+#endif

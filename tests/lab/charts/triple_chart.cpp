@@ -1,0 +1,43 @@
+#include "tests/lab/charts/triple_chart.h"
+
+#include "tests/lab/charts/gnuplot.h"
+
+#include <fmt/format.h>
+
+namespace relume::lab {
+
+void draw_triple_chart(const std::filesystem::path& stem,
+                       const std::vector<std::string>& names,
+                       const std::vector<TermCurve>& curves) {
+    Chart chart{.width = 1000, .height = 420};
+    std::string plots[2] = {"plot ", "plot "};
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        chart.data += fmt::format("$curve{} << EOD\n", i);
+        for (const TermPoint& point : curves[i].points) {
+            chart.data += fmt::format("{} {:.5g} {:.5g}\n", point.terms, point.microseconds,
+                                      100 * point.error);
+        }
+        chart.data += "EOD\n";
+        for (std::size_t panel = 0; panel < 2; ++panel) {
+            plots[panel] += fmt::format(
+                "{}$curve{} using 1:{} with linespoints lw 2 pt {} ps 0.7 lc rgb '{}' title "
+                "'{}'",
+                i == 0 ? "" : ", ", i, panel + 2, chart_point(i), chart_colour(i + 1),
+                chart_text(names[i]));
+        }
+        plots[0] += fmt::format(
+            ", {:.5g} with lines dt 2 lw 1.5 lc rgb '{}' title '{}, over open texels'",
+            curves[i].microseconds_bits, chart_colour(i + 1), chart_text(names[i]));
+    }
+    chart.commands =
+        chart_style() +
+        fmt::format(
+            "set multiplot layout 1,2\nset logscale xy\nset xlabel 'terms of light "
+            "and of material'\nset key top left\nset ylabel 'µs a vertex'\n{}\n"
+            "set key top right\nset ylabel 'relative L2 error, %'\n{}\n"
+            "unset multiplot\n",
+            plots[0], plots[1]);
+    draw_chart(stem, chart);
+}
+
+}  // namespace relume::lab
