@@ -41,10 +41,8 @@ EditablePoints::EditablePoints(std::shared_ptr<const transport::Transport> trans
     : transport_(std::move(transport)) {
     const transport::MaterialsSection& section = *transport_->manifest().materials;
     for (const transport::EditableRecord& record : section.editable) {
-        materials_.push_back({.id = record.id,
-                              .brdf = brdf_of(record),
-                              .coat = coat_of(record),
-                              .tiles = {}});
+        materials_.push_back(
+            {.id = record.id, .brdf = brdf_of(record), .coat = coat_of(record), .tiles = {}});
         const curve::CurveBrdf& brdf = materials_.back().brdf;
         for (std::size_t i = 0; i < brdf.curves().size(); ++i) {
             records_.push_back(record_of(record, brdf, brdf.curves()[i]));

@@ -9,13 +9,44 @@
 namespace relume::materials {
 namespace {
 
-// Paths of a bake of light whose directions a tile's columns have (kDirectionsOfWay).
-constexpr std::uint32_t kDraftSamples = 8;
-constexpr std::uint32_t kWholeSamples = 64;
-// Tiles that are worked on together.
-constexpr std::size_t kGlanceBatch = 32;
-constexpr std::size_t kDraftBatch = 8;
-constexpr std::size_t kWholeBatch = 2;
+// How a tile's columns come to a knowledge: from so many samples (TileEstimate), in so many
+// parts, of so many tiles together. What is done at once takes two cores some 20 ms of tiles
+// that are all of the material, so that other rooms do not wait longer.
+struct Stage {
+    std::uint32_t samples;
+    std::uint32_t parts;
+    std::size_t tiles;
+};
+constexpr std::size_t kGlanceTiles = 8;
+
+constexpr Stage stage_of(Knowledge knowledge) {
+    switch (knowledge) {
+        case Knowledge::nothing:
+        case Knowledge::glance:
+            break;
+        case Knowledge::draft:
+            return {.samples = 2, .parts = 1, .tiles = 8};
+        case Knowledge::better:
+            return {.samples = 8, .parts = 1, .tiles = 2};
+        case Knowledge::whole:
+            return {.samples = 64, .parts = 8, .tiles = 2};
+    }
+    return {.samples = 1, .parts = 1, .tiles = 1};
+}
+
+Knowledge next_stage(Knowledge columns) {
+    switch (columns) {
+        case Knowledge::nothing:
+        case Knowledge::glance:
+            return Knowledge::draft;
+        case Knowledge::draft:
+            return Knowledge::better;
+        case Knowledge::better:
+        case Knowledge::whole:
+            break;
+    }
+    return Knowledge::whole;
+}
 
 double squared_length(std::span<const float> values) {
     double sum = 0;
@@ -42,7 +73,7 @@ void KnownErrors::compare(Knowledge before,
 }
 
 void KnownErrors::learn() {
-    for (const Knowledge knowledge : {Knowledge::glance, Knowledge::draft}) {
+    for (const Knowledge knowledge : {Knowledge::glance, Knowledge::draft, Knowledge::better}) {
         const auto at = static_cast<std::size_t>(knowledge);
         if (whole_[at] > 0) {
             relative_[at] = std::sqrt(difference_[at] / whole_[at]);
@@ -75,9 +106,10 @@ void MaterialWork::light_has_changed() {
     glance_is_of_the_past_ = true;
     for (Tile& tile : tiles_) {
         tile.columns.reset();
-        tile.columns_are_whole = tile.is_applied = false;
-        tile.knowledge = Knowledge::nothing;
+        tile.is_applied = false;
+        tile.columns_are = tile.knowledge = Knowledge::nothing;
     }
+    batch_.reset();
     count();
 }
 
@@ -88,13 +120,13 @@ void MaterialWork::show_changes_of(const MaterialWork& other) {
 }
 
 // Of a tile that has columns.
-void MaterialWork::set_change(Tile& tile, Knowledge knowledge) {
+void MaterialWork::set_change(Tile& tile) {
     const TileColumns& columns = *tile.columns;
     tile.change.slots.assign(columns.slots().begin(), columns.slots().end());
     tile.change.rgb.resize(3 * columns.slots().size());
     columns.change(shown_.brdf.curves()[shown_.taken_up].curve, shown_.diffuse,
                    tile.change.rgb);
-    tile.knowledge = knowledge;
+    tile.knowledge = tile.columns_are;
     tile.is_applied = true;
 }
 
@@ -118,9 +150,7 @@ bool MaterialWork::apply_columns() {
             due.push_back(&tile);
         }
     }
-    tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t i) {
-        set_change(*due[i], due[i]->columns_are_whole ? Knowledge::whole : Knowledge::draft);
-    });
+    tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t i) { set_change(*due[i]); });
     count();
     return !due.empty();
 }
@@ -131,7 +161,7 @@ bool MaterialWork::glance(const std::shared_ptr<const PresentLight>& light) {
         glance_shown_ = std::make_unique<const ShownMaterial>(shown_);
         glance_is_of_the_past_ = false;
     }
-    const std::size_t end = std::min(next_glance_ + kGlanceBatch, tiles_.size());
+    const std::size_t end = std::min(next_glance_ + kGlanceTiles, tiles_.size());
     const TileEstimate estimate(points_, *glance_light_);
     tbb::parallel_for(next_glance_, end, [&](std::size_t i) {
         if (!tiles_[i].columns) {
@@ -155,30 +185,56 @@ bool MaterialWork::glance(const std::shared_ptr<const PresentLight>& light) {
     return true;
 }
 
-bool MaterialWork::estimate(const PresentLight& light, KnownErrors& errors) {
-    const auto needs_draft = [](const Tile& tile) { return !tile.columns; };
-    const bool drafts = std::any_of(tiles_.begin(), tiles_.end(), needs_draft);
-    std::vector<Tile*> batch;
+void MaterialWork::begin_batch() {
+    const auto is_behind = [](const Tile& a, const Tile& b) {
+        return a.columns_are < b.columns_are;
+    };
+    const Knowledge least =
+        std::min_element(tiles_.begin(), tiles_.end(), is_behind)->columns_are;
+    batch_.emplace();
+    batch_->stage = next_stage(least);
     for (Tile& tile : tiles_) {
-        if (batch.size() < (drafts ? kDraftBatch : kWholeBatch) &&
-            (drafts ? needs_draft(tile) : !tile.columns_are_whole)) {
-            batch.push_back(&tile);
+        if (tile.columns_are == least && batch_->tiles.size() < stage_of(batch_->stage).tiles) {
+            batch_->tiles.push_back(&tile);
         }
     }
-    const TileEstimate estimate(points_, light);
-    std::vector<std::pair<Knowledge, std::vector<float>>> before(batch.size());
-    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-        Tile& tile = *batch[i];
+    batch_->sums.resize(batch_->tiles.size());
+}
+
+void MaterialWork::finish_batch(KnownErrors& errors) {
+    std::vector<std::pair<Knowledge, std::vector<float>>> before(batch_->tiles.size());
+    tbb::parallel_for(std::size_t{0}, batch_->tiles.size(), [&](std::size_t i) {
+        Tile& tile = *batch_->tiles[i];
+        ColumnSum& sum = batch_->sums[i];
         before[i] = {tile.knowledge, tile.change.rgb};
-        tile.columns = std::make_unique<const TileColumns>(
-            estimate.columns(shown_, tile.number, drafts ? kDraftSamples : kWholeSamples));
-        tile.columns_are_whole = !drafts;
-        set_change(tile, drafts ? Knowledge::draft : Knowledge::whole);
+        tile.columns =
+            std::make_unique<const TileColumns>(std::move(sum.slots), std::move(sum.values));
+        tile.columns_are = batch_->stage;
+        set_change(tile);
     });
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-        errors.compare(before[i].first, before[i].second, batch[i]->change.rgb);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        errors.compare(before[i].first, before[i].second, batch_->tiles[i]->change.rgb);
     }
+    batch_.reset();
     count();
+}
+
+bool MaterialWork::estimate(const PresentLight& light, KnownErrors& errors) {
+    if (!batch_) {
+        begin_batch();
+    }
+    const Stage stage = stage_of(batch_->stage);
+    const TileEstimate estimate(points_, light);
+    tbb::parallel_for(std::size_t{0}, batch_->tiles.size(), [&](std::size_t i) {
+        estimate.add_directions(
+            shown_, batch_->tiles[i]->number,
+            {.samples = stage.samples, .part = batch_->parts_done, .parts = stage.parts},
+            batch_->sums[i]);
+    });
+    if (++batch_->parts_done < stage.parts) {
+        return false;
+    }
+    finish_batch(errors);
     return true;
 }
 

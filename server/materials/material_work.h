@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,12 +19,13 @@ enum class Knowledge : std::uint8_t {
     nothing,  // none, or that of another light or another edit
     glance,   // TileEstimate::glance
     draft,    // columns of few directions
-    whole     // columns of all directions
+    better,   // of four times as many
+    whole     // of all directions
 };
-inline constexpr std::size_t kKnowledges = 4;
+inline constexpr std::size_t kKnowledges = 5;
 
-// How far changes of each kind have been from those of whole columns, as a part of these.
-// Learned as columns become whole; a guess before.
+// How far changes of each kind have been from those of columns of more directions, as a part of
+// these. Learned as columns become better; a guess before.
 class KnownErrors {
   public:
     [[nodiscard]] double of(Knowledge knowledge) const {
@@ -34,7 +36,7 @@ class KnownErrors {
     void learn();
 
   private:
-    std::array<double, kKnowledges> relative_{1, 0.5, 0.1, 0};
+    std::array<double, kKnowledges> relative_{1, 0.5, 0.2, 0.1, 0};
     std::array<double, kKnowledges> difference_{};  // squared, so far
     std::array<double, kKnowledges> whole_{};
 };
@@ -68,8 +70,8 @@ class MaterialWork {
     // Takes a batch of tiles further; true where what is shown has changed. Expects that not
     // all is known.
     bool glance(const std::shared_ptr<const PresentLight>& light);
-    // Estimates columns of a batch of tiles: drafts first. True where what is shown has
-    // changed. Expects that not all is whole.
+    // Estimates columns of a batch of tiles, or a part of them: drafts first. True where what
+    // is shown has changed. Expects that not all is whole.
     bool estimate(const PresentLight& light, KnownErrors& errors);
 
     // Squared length of what is shown, times the squared error that it is known with.
@@ -81,15 +83,25 @@ class MaterialWork {
   private:
     struct Tile {
         std::uint32_t number = 0;
-        Knowledge knowledge = Knowledge::nothing;
-        bool columns_are_whole = false;
-        bool is_applied = false;  // of columns
+        Knowledge knowledge = Knowledge::nothing;  // of `change`
+        bool is_applied = false;                   // of columns
         std::unique_ptr<const TileColumns> columns{};
+        Knowledge columns_are = Knowledge::nothing;
         TileChange change{};
         TileChange glanced{};  // of a glance that is not whole
     };
 
-    void set_change(Tile& tile, Knowledge knowledge);
+    // Tiles whose columns get more directions together.
+    struct Batch {
+        Knowledge stage = Knowledge::draft;  // that they come to
+        std::vector<Tile*> tiles;
+        std::vector<ColumnSum> sums;
+        std::uint32_t parts_done = 0;
+    };
+
+    void set_change(Tile& tile);
+    void begin_batch();
+    void finish_batch(KnownErrors& errors);
     void count();
 
     const EditablePoints& points_;
@@ -98,6 +110,7 @@ class MaterialWork {
     std::vector<std::int32_t> tile_from_number_;  // of the image; -1: none
     std::size_t known_ = 0;
     std::size_t whole_ = 0;
+    std::optional<Batch> batch_;
     // Of the glance that is going on:
     std::size_t next_glance_ = 0;
     std::shared_ptr<const PresentLight> glance_light_;

@@ -88,20 +88,22 @@ void for_each_direction(const SampledPoint& point,
                         const sampling::CurveOfBrdf& edited,
                         const sampling::TexelLight& light,
                         std::uint32_t visibility_n,
-                        std::uint32_t samples,
+                        const DirectionPart& part,
                         const Take& take) {
     std::array<std::uint32_t, sampling::kWays.size()> counts{};
     for (std::size_t way = 0; way < counts.size(); ++way) {
         counts[way] = std::max(
-            1U,
-            static_cast<std::uint32_t>(std::lround(
-                point.share * static_cast<float>(samples * sampling::kDirectionsOfWay[way]))));
+            1U, static_cast<std::uint32_t>(std::lround(
+                    point.share *
+                    static_cast<float>(part.samples * sampling::kDirectionsOfWay[way]))));
     }
     CurveSampler sampler(point.place, edited, light, counts);
     for (const Way way : sampling::kWays) {
         const auto number = static_cast<std::size_t>(way);
-        const std::uint32_t first = point.run * samples * sampling::kDirectionsOfWay[number];
-        for (std::uint32_t i = 0; i < counts[number]; ++i) {
+        const std::uint32_t first =
+            point.run * part.samples * sampling::kDirectionsOfWay[number];
+        const std::uint32_t end = counts[number] * (part.part + 1) / part.parts;
+        for (std::uint32_t i = counts[number] * part.part / part.parts; i < end; ++i) {
             if (!sampler.draw(way, first + i, point.key + 16 * std::uint64_t{number})) {
                 continue;
             }
@@ -149,20 +151,25 @@ bool ShownMaterial::has_columns_of(const ShownMaterial& other) const {
     return true;
 }
 
-TileColumns TileEstimate::columns(const ShownMaterial& shown,
+void TileEstimate::add_directions(const ShownMaterial& shown,
                                   std::uint32_t tile,
-                                  std::uint32_t samples) const {
+                                  const DirectionPart& part,
+                                  ColumnSum& sum) const {
     const PointsOfTile points(points_, shown.material, tile);
+    if (sum.slots.empty()) {
+        sum.slots = points.slots();
+        sum.values = ColumnValues(points.slots().size());
+    }
+    ColumnValues& values = sum.values;
     const curve::CurveBrdf& baked = points_.materials()[shown.material].brdf;
     const sampling::CurveOfBrdf edited{.brdf = shown.brdf, .curve = shown.taken_up};
     const bool baked_is_other = others_are_edited(shown, baked);
-    ColumnValues values(points.slots().size());
     sampling::CurveShares shares;
     for (const SampledPoint& point : points.points()) {
         shares = {};
         Imath::V3f of_baked{0, 0, 0};
         for_each_direction(point, edited, light_.texels, points_.visibility().face_resolution(),
-                           samples, [&](CurveSampler& sampler) {
+                           part, [&](CurveSampler& sampler) {
                                const Imath::V3f radiance =
                                    light_.texels.radiance(sampler.direction());
                                if (sampler.reflects()) {
@@ -186,7 +193,6 @@ TileColumns TileEstimate::columns(const ShownMaterial& shown,
             }
         }
     }
-    return {points.slots(), std::move(values)};
 }
 
 TileChange TileEstimate::glance(const ShownMaterial& shown, std::uint32_t tile) const {
@@ -198,7 +204,7 @@ TileChange TileEstimate::glance(const ShownMaterial& shown, std::uint32_t tile) 
     for (const SampledPoint& point : points.points()) {
         Imath::V3f sum{0, 0, 0};
         for_each_direction(point, edited, light_.texels, points_.visibility().face_resolution(),
-                           kGlanceSamples, [&](CurveSampler& sampler) {
+                           {.samples = kGlanceSamples}, [&](CurveSampler& sampler) {
                                const Imath::V3f& wi = sampler.local_direction();
                                const float density = sampler.density();
                                const Imath::V3f more =

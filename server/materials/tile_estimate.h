@@ -47,6 +47,20 @@ struct TileChange {
     std::vector<float> rgb;  // [pixels][3]
 };
 
+// Some of the directions that a tile's columns are estimated from: 21·samples a pixel in all
+// (sampling/curve_sampler.h), of which this is one of so many parts.
+struct DirectionPart {
+    std::uint32_t samples = 1;
+    std::uint32_t part = 0;
+    std::uint32_t parts = 1;
+};
+
+// A tile's columns while directions are added.
+struct ColumnSum {
+    std::vector<std::uint8_t> slots;  // of the pixels
+    ColumnValues values{0};
+};
+
 // Immutable and thread-safe; results depend on the arguments alone.
 class TileEstimate {
   public:
@@ -54,10 +68,11 @@ class TileEstimate {
     TileEstimate(const EditablePoints& points, const PresentLight& light)
         : points_(points), light_(light) {}
 
-    // From 21·samples directions a pixel (sampling/curve_sampler.h).
-    [[nodiscard]] TileColumns columns(const ShownMaterial& shown,
-                                      std::uint32_t tile,
-                                      std::uint32_t samples) const;
+    // Adds a part of the directions; a sum without pixels gets those of the tile.
+    void add_directions(const ShownMaterial& shown,
+                        std::uint32_t tile,
+                        const DirectionPart& part,
+                        ColumnSum& sum) const;
     // A first look, for a material as it is: as few directions as there may be, each for the
     // mean of the light around it, as wide as their density leaves [Krivanek08]. It is
     // noiseless where light and surface are smooth, and blurred elsewhere.

@@ -121,6 +121,15 @@ class TileEstimateTest : public testing::Test {
     PresentLight present_{light_};
 };
 
+TileColumns columns_of(const TileEstimate& estimate,
+                       const ShownMaterial& shown,
+                       std::uint32_t tile,
+                       std::uint32_t samples) {
+    ColumnSum sum;
+    estimate.add_directions(shown, tile, {.samples = samples}, sum);
+    return {std::move(sum.slots), std::move(sum.values)};
+}
+
 // Curves of twice the values where the other half of them is zero.
 curve::Curve halved(const curve::Curve& curve) {
     curve::Curve half = curve;
@@ -140,7 +149,7 @@ TEST_F(TileEstimateTest, ColumnsShowWhatTheContractSays) {
             shown.taken_up = curve;
             shown.brdf = shown.brdf.with_curve(curve, halved(shown.brdf.curves()[curve].curve));
             shown.diffuse = {0.2F, 1, 3};
-            const TileColumns columns = estimate.columns(shown, 1, 256);
+            const TileColumns columns = columns_of(estimate, shown, 1, 256);
             EXPECT_LT(distance(change(columns, shown), change_by_definition(shown, 1)), 0.015)
                 << material << " " << curve;
         }
@@ -154,17 +163,33 @@ TEST_F(TileEstimateTest, ColumnsHeedTheOtherCurvesAsTheyAre) {
     shown.brdf = shown.brdf.with_curve(0, halved(shown.brdf.curves()[0].curve));
     shown.taken_up = 1;
     shown.brdf = shown.brdf.with_curve(1, halved(shown.brdf.curves()[1].curve));
-    const TileColumns columns = estimate.columns(shown, 0, 256);
+    const TileColumns columns = columns_of(estimate, shown, 0, 256);
     EXPECT_LT(distance(change(columns, shown), change_by_definition(shown, 0)), 0.015);
+}
+
+TEST_F(TileEstimateTest, PartsAreTogetherAllDirections) {
+    const TileEstimate estimate(*points_, present_);
+    const ShownMaterial shown = as_baked(1);
+    ColumnSum at_once;
+    estimate.add_directions(shown, 1, {.samples = 16}, at_once);
+    ColumnSum by_parts;
+    for (std::uint32_t part = 0; part < 5; ++part) {
+        estimate.add_directions(shown, 1, {.samples = 16, .part = part, .parts = 5}, by_parts);
+    }
+    EXPECT_EQ(by_parts.slots, at_once.slots);
+    for (std::size_t i = 0; i < at_once.values.samples.size(); ++i) {
+        EXPECT_NEAR(by_parts.values.samples[i], at_once.values.samples[i],
+                    1e-5 * (1e-3 + at_once.values.samples[i]));
+    }
 }
 
 TEST_F(TileEstimateTest, AMaterialAsBakedChangesNothing) {
     const TileEstimate estimate(*points_, present_);
     const ShownMaterial shown = as_baked(0);
-    const TileChange still = change(estimate.columns(shown, 0, 8), shown);
+    const TileChange still = change(columns_of(estimate, shown, 0, 8), shown);
     ShownMaterial black = shown;
     black.brdf = shown.brdf.with_curve(0, curve::Curve{});
-    const TileChange all = change(estimate.columns(shown, 0, 8), black);
+    const TileChange all = change(columns_of(estimate, shown, 0, 8), black);
     for (std::size_t i = 0; i < still.rgb.size(); ++i) {
         EXPECT_NEAR(still.rgb[i], 0, 1e-4 * std::abs(all.rgb[i]) + 1e-6);
     }
@@ -178,8 +203,8 @@ TEST_F(TileEstimateTest, MoreDirectionsAreNearerAndAGlanceIsNotFar) {
     shown.taken_up = 1;
     const std::vector<double> truth = change_by_definition(shown, 2);
     const double glance = distance(estimate.glance(shown, 2), truth);
-    const double few = distance(change(estimate.columns(shown, 2, 4), shown), truth);
-    const double many = distance(change(estimate.columns(shown, 2, 64), shown), truth);
+    const double few = distance(change(columns_of(estimate, shown, 2, 4), shown), truth);
+    const double many = distance(change(columns_of(estimate, shown, 2, 64), shown), truth);
     EXPECT_LT(many, few);
     EXPECT_LT(few, glance);
     EXPECT_LT(glance, 0.5);
@@ -196,11 +221,11 @@ TEST_F(TileEstimateTest, PointsThatSeeNothingShowNothing) {
     const EditablePoints dark(transport::Transport::open(path));
     const TileEstimate estimate(dark, present_);
     ShownMaterial shown{.material = 0, .brdf = dark.materials()[0].brdf, .diffuse = {5, 5, 5}};
-    const TileChange found = change(estimate.columns(shown, 3, 16), shown);
+    const TileChange found = change(columns_of(estimate, shown, 3, 16), shown);
     EXPECT_EQ(found.slots, std::vector<std::uint8_t>{5});
     EXPECT_EQ(found.rgb, std::vector<float>(3, 0.0F));
     EXPECT_EQ(estimate.glance(shown, 3).rgb, std::vector<float>(3, 0.0F));
-    EXPECT_TRUE(estimate.columns(shown, 0, 16).slots().empty());
+    EXPECT_TRUE(columns_of(estimate, shown, 0, 16).slots().empty());
 }
 
 }  // namespace
