@@ -64,19 +64,18 @@ class PartBaker {
     std::uint64_t look(std::span<const LookingPoint> points,
                        std::span<std::uint64_t> bits) const {
         constexpr std::size_t kPointsPerTick = 16;
-        std::uint64_t all = 0;
+        PointVisibility::Scratch scratch;
         for (std::size_t first = 0; first < points.size(); first += kPointsPerTick) {
             const std::size_t count = std::min(kPointsPerTick, points.size() - first);
-            std::uint64_t rays = 0;
+            const std::uint64_t before = scratch.rays;
             for (std::size_t i = first; i < first + count; ++i) {
-                visibility_.compute(points[i], bits.subspan(i * words_, words_), rays);
+                visibility_.compute(points[i], bits.subspan(i * words_, words_), scratch);
             }
-            all += rays;
-            if (!work_.tick(count, rays, false)) {
+            if (!work_.tick(count, scratch.rays - before, false)) {
                 throw BakeInterrupted("stopped before all of the visibility was finished");
             }
         }
-        return all;
+        return scratch.rays;
     }
 
     const FieldSource& source_;

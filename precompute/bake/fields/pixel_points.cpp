@@ -17,13 +17,14 @@ struct Surface {
 };
 
 std::uint32_t points_of(const ReceiverSurface& surface) {
-    if (surface.turns.empty()) {
-        return 1;
-    }
-    const auto wanted = static_cast<std::uint32_t>(
-        std::ceil(surface.share * static_cast<float>(kMostPointsOfSurface)));
-    return std::min(
-        {wanted, kMostPointsOfSurface, static_cast<std::uint32_t>(surface.turns.size())});
+    const auto of = [&](std::uint32_t most) {
+        const auto wanted =
+            static_cast<std::uint32_t>(std::ceil(surface.share * static_cast<float>(most)));
+        return std::min(wanted, most);
+    };
+    return surface.turns.empty() ? of(kMostAlikePoints)
+                                 : std::min(of(kMostTurnPoints),
+                                            static_cast<std::uint32_t>(surface.turns.size()));
 }
 
 // Whether another surface of its material stands for it as well.
@@ -57,6 +58,20 @@ void make_few(std::vector<Surface>& surfaces) {
         most->share += least->share;
         surfaces.erase(least);
     }
+}
+
+// Of the next rays in each texel: by Roberts' R2 sequence, as the further rays of a row.
+JitterShift moved(JitterShift shift, std::uint32_t count) {
+    constexpr float kColumnStep = 0.75487767F;
+    constexpr float kRowStep = 0.56984029F;
+    const auto wrapped = [](float x) { return x >= 1 ? x - 1 : x; };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+            shift.column[lane] = wrapped(shift.column[lane] + kColumnStep);
+            shift.row[lane] = wrapped(shift.row[lane] + kRowStep);
+        }
+    }
+    return shift;
 }
 
 transport::SeenPoint seen_point(const scene::SurfacePoint& point,
@@ -93,14 +108,14 @@ std::vector<PixelPoint> points_of_pixel(const Receiver& receiver,
     for (const Surface& one : surfaces) {
         const ReceiverSurface& surface = *one.surface;
         const Imath::V3f& diffuse = surface.point.bsdf.diffuse_colour();
-        const bool turns = one.points > 1;
+        const bool turns = one.points > 1 && !surface.turns.empty();
+        const JitterShift first = jitter_shift(receiver.place, surface.number, seed);
         for (std::uint32_t i = 0; i < one.points; ++i) {
             const scene::SurfacePoint& point = turns ? surface.turns[i] : surface.point;
-            // Numbers of surfaces are far below 2¹⁶.
-            LookingPoint looking{
-                .origins = surface.origins,
-                .geometric_normal = point.geometric_normal,
-                .shift = jitter_shift(receiver.place, surface.number + (i << 16U), seed)};
+            LookingPoint looking{.origins = surface.origins,
+                                 .geometric_normal = point.geometric_normal,
+                                 .shift = moved(first, i),
+                                 .looks_again = i > 0 && !turns};
             if (turns) {
                 looking.origins.fill(offset_origin(point));
             }

@@ -12,6 +12,34 @@ float wrapped(float x) {
     return x >= 1 ? x - 1 : x;
 }
 
+// The first of a few places of a texel, from the one at these offsets on, that lies above the
+// surface; false where none does.
+bool aim_above(const LightTexels& texels,
+               std::size_t place,
+               float column,
+               float row,
+               const Imath::V3f& normal,
+               Imath::V3f& direction) {
+    constexpr std::uint32_t kTries = 16;
+    constexpr float kColumnStep = 0.75487767F;  // Roberts' R2 sequence
+    constexpr float kRowStep = 0.56984029F;
+    for (std::uint32_t tries = 0; tries < kTries; ++tries) {
+        direction = texels.cube_point(place, column, row);
+        if (direction.dot(normal) > 0) {
+            return true;
+        }
+        column = wrapped(column + kColumnStep);
+        row = wrapped(row + kRowStep);
+    }
+    return false;
+}
+
+void set_lane(RayPacket& rays, std::size_t lane, const Imath::V3f& direction) {
+    rays.x()[lane] = direction.x;
+    rays.y()[lane] = direction.y;
+    rays.z()[lane] = direction.z;
+}
+
 }  // namespace
 
 std::uint32_t PointVisibility::aim(const LookingPoint& point,
@@ -35,25 +63,13 @@ std::uint32_t PointVisibility::aim(const LookingPoint& point,
     if (height > radius) {
         return kAllLanes;
     }
-    // At the horizon: the first of a few places of the texel that lies above.
-    constexpr std::uint32_t kTries = 16;
-    constexpr float kColumnStep = 0.75487767F;  // Roberts' R2 sequence
-    constexpr float kRowStep = 0.56984029F;
+    // At the horizon.
     std::uint32_t above = 0;
+    Imath::V3f direction;
     for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-        float column = columns[lane];
-        float row = rows[lane];
-        for (std::uint32_t tries = 0; tries < kTries; ++tries) {
-            const Imath::V3f direction = texels_.cube_point(first + lane, column, row);
-            if (direction.dot(normal) > 0) {
-                rays.x()[lane] = direction.x;
-                rays.y()[lane] = direction.y;
-                rays.z()[lane] = direction.z;
-                above |= 1U << lane;
-                break;
-            }
-            column = wrapped(column + kColumnStep);
-            row = wrapped(row + kRowStep);
+        if (aim_above(texels_, first + lane, columns[lane], rows[lane], normal, direction)) {
+            set_lane(rays, lane, direction);
+            above |= 1U << lane;
         }
     }
     return above;
@@ -61,10 +77,27 @@ std::uint32_t PointVisibility::aim(const LookingPoint& point,
 
 void PointVisibility::compute(const LookingPoint& point,
                               std::span<std::uint64_t> bits,
-                              std::uint64_t& rays) const {
+                              Scratch& scratch) const {
+    if (point.looks_again) {
+        look_again(point, bits, scratch);
+        return;
+    }
+    look(point, bits, scratch);
+    scratch.bits.assign(bits.begin(), bits.end());
+    scratch.edges.find();
+    scratch.edge_texels = scratch.edges.near();
+    scratch.edge_texels.insert(scratch.edge_texels.end(), scratch.edges.around().begin(),
+                               scratch.edges.around().end());
+}
+
+void PointVisibility::look(const LookingPoint& point,
+                           std::span<std::uint64_t> bits,
+                           Scratch& scratch) const {
     constexpr std::uint32_t kSide = LightTexels::kPacketSide;
     const std::size_t n = texels_.face_resolution();
     std::fill(bits.begin(), bits.end(), std::uint64_t{0});
+    scratch.edges.reset(n);
+    const std::size_t stride = scratch.edges.row_stride();
     RayPacket packet(point.origins);
     for (std::size_t i = 0; i < texels_.packet_count(); ++i) {
         const std::uint32_t wanted = aim(point, i, packet);
@@ -72,13 +105,50 @@ void PointVisibility::compute(const LookingPoint& point,
             continue;
         }
         const std::uint32_t open = caster_.unoccluded(packet, wanted);
-        rays += static_cast<std::uint64_t>(std::popcount(wanted));
+        scratch.rays += static_cast<std::uint64_t>(std::popcount(wanted));
         // Four texels of a row begin at a multiple of four, so that no word is left.
         const std::size_t corner = texels_.texel_index(i * kPacketSize);
         for (std::uint32_t row = 0; row < kSide; ++row) {
             const std::size_t texel = corner + row * n;
             const std::uint64_t four = (open >> (row * kSide)) & 0xFU;
             bits[texel / 64] |= four << (texel % 64);
+        }
+        std::uint8_t* state = scratch.edges.state(corner);
+        for (std::uint32_t lane = 0; lane < kPacketSize; ++lane) {
+            state[lane / kSide * stride + lane % kSide] = static_cast<std::uint8_t>(
+                ((wanted >> lane) & 1U) * (TexelState::kBlocked + ((open >> lane) & 1U)));
+        }
+    }
+}
+
+void PointVisibility::look_again(const LookingPoint& point,
+                                 std::span<std::uint64_t> bits,
+                                 Scratch& scratch) const {
+    std::copy(scratch.bits.begin(), scratch.bits.end(), bits.begin());
+    RayPacket packet(point.origins);
+    const std::vector<std::uint32_t>& edges = scratch.edge_texels;
+    Imath::V3f direction;
+    for (std::size_t first = 0; first < edges.size(); first += kPacketSize) {
+        const std::size_t lanes = std::min(kPacketSize, edges.size() - first);
+        std::uint32_t wanted = 0;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const std::size_t place = texels_.place_from_texel_index(edges[first + lane]);
+            const std::size_t own = place % kPacketSize;
+            if (aim_above(texels_, place,
+                          wrapped(texels_.jitter_column()[place] + point.shift.column[own]),
+                          wrapped(texels_.jitter_row()[place] + point.shift.row[own]),
+                          point.geometric_normal, direction)) {
+                set_lane(packet, lane, direction);
+                wanted |= 1U << lane;
+            }
+        }
+        const std::uint32_t open = caster_.unoccluded(packet, wanted);
+        scratch.rays += static_cast<std::uint64_t>(std::popcount(wanted));
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const std::size_t texel = edges[first + lane];
+            const std::uint64_t bit = std::uint64_t{1} << (texel % 64);
+            bits[texel / 64] &= ~bit;
+            bits[texel / 64] |= ((open >> lane) & 1U) != 0 ? bit : 0;
         }
     }
 }

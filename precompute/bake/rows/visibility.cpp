@@ -10,11 +10,6 @@
 namespace relume::bake {
 namespace {
 
-// States of a texel; two neighbours disagree when their states together have both bits.
-constexpr std::uint8_t kUnknown = 0;
-constexpr std::uint8_t kBlocked = 1;
-constexpr std::uint8_t kOpen = 2;
-
 // Of the further rays at an edge, the part that goes where only the wider surroundings
 // disagree: such a texel is less likely to be cut, and there are more of them.
 constexpr float kOfNear = 0.5F;
@@ -47,50 +42,7 @@ RELUME_CPU_CLONES void spread_lanes(std::uint32_t wanted,
     for (std::uint32_t i = 0; i < kPacketSize; ++i) {
         const std::uint32_t is_open = (free >> i) & 1U;
         open[i] = static_cast<float>(static_cast<int>(is_open));
-        state[i] = ((wanted >> i) & 1U) * (kBlocked + is_open);
-    }
-}
-
-// Columns and rows of unknown states around each face.
-constexpr std::size_t kBorder = 2;
-
-// Where the states of a row of texels begin; rows count over all faces of n².
-constexpr std::size_t first_state(std::size_t row, std::size_t n) {
-    return (row + 2 * kBorder * (row / n) + kBorder) * (n + 2 * kBorder) + kBorder;
-}
-
-// States that the texels of a row and two on either side have together; in `beside` without
-// their own.
-RELUME_CPU_CLONES void join_columns(const std::uint8_t* state,
-                                    std::size_t count,
-                                    std::uint8_t* joined,
-                                    std::uint8_t* beside) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint8_t* at = state + i;
-        beside[i] = static_cast<std::uint8_t>(*(at - 2) | *(at - 1) | at[1] | at[2]);
-        joined[i] = static_cast<std::uint8_t>(beside[i] | *at);
-    }
-}
-
-// Which texels of a row are at an edge, and how near. `side` is from row to row, of states and
-// of `joined`.
-RELUME_CPU_CLONES void flag_edges(const std::uint8_t* state,
-                                  const std::uint8_t* joined,
-                                  const std::uint8_t* beside,
-                                  std::size_t side,
-                                  std::size_t count,
-                                  std::uint8_t* flags) {
-    constexpr std::uint8_t kBoth = kBlocked | kOpen;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint8_t* at = state + i;
-        const std::uint8_t* rows = joined + i;
-        const auto four =
-            static_cast<std::uint8_t>(at[1] | *(at - 1) | at[side] | *(at - side));
-        const auto all = static_cast<std::uint8_t>(
-            beside[i] | *(rows - 2 * side) | *(rows - side) | rows[side] | rows[2 * side]);
-        const auto near = static_cast<std::uint8_t>(four == kBoth);
-        const auto around = static_cast<std::uint8_t>(all == kBoth);
-        flags[i] = *at == kUnknown ? std::uint8_t{0} : static_cast<std::uint8_t>(near + around);
+        state[i] = ((wanted >> i) & 1U) * (TexelState::kBlocked + is_open);
     }
 }
 
@@ -133,15 +85,14 @@ void Visibility::compute(const std::array<Imath::V3f, kPacketSize>& origins,
                          std::span<const float> wanted,
                          std::span<float> open,
                          Scratch& scratch) const {
-    const std::size_t side = texels_.face_resolution() + 2 * kBorder;
-    scratch.state.assign(basis::kFaceCount * side * side, kUnknown);
+    scratch.edges.reset(texels_.face_resolution());
     RayPacket packet(origins);
     cast_first(packet, shift, wanted, open, scratch);
     if (!column_samples_.empty()) {
-        find_edges(scratch);
+        scratch.edges.find();
         const float most = share * static_cast<float>(column_samples_.size());
-        refine(packet, shift, scratch.near, most, open, scratch);
-        refine(packet, shift, scratch.around, kOfNear * most, open, scratch);
+        refine(packet, shift, scratch.edges.near(), most, open, scratch);
+        refine(packet, shift, scratch.edges.around(), kOfNear * most, open, scratch);
     }
 }
 
@@ -150,8 +101,7 @@ void Visibility::cast_first(RayPacket& packet,
                             std::span<const float> wanted,
                             std::span<float> open,
                             Scratch& scratch) const {
-    const std::size_t n = texels_.face_resolution();
-    const std::size_t side = n + 2 * kBorder;
+    const std::size_t side = scratch.edges.row_stride();
     alignas(64) std::array<float, kPacketSize> columns;
     alignas(64) std::array<float, kPacketSize> rows;
     alignas(64) std::array<std::uint32_t, kPacketSize> states;
@@ -168,40 +118,10 @@ void Visibility::cast_first(RayPacket& packet,
         const std::uint32_t free = caster_.unoccluded(packet, mask);
         scratch.rays += static_cast<std::uint64_t>(std::popcount(mask));
         spread_lanes(mask, free, &open[first], states.data());
-        const std::size_t texel = texels_.texel_index(first);
-        const std::size_t row = texel / n;  // over all faces
-        std::uint8_t* state = &scratch.state[first_state(row, n) + texel % n];
+        std::uint8_t* state = scratch.edges.state(texels_.texel_index(first));
         for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
             state[lane / LightTexels::kPacketSide * side + lane % LightTexels::kPacketSide] =
                 static_cast<std::uint8_t>(states[lane]);
-        }
-    }
-}
-
-void Visibility::find_edges(Scratch& scratch) const {
-    const std::size_t n = texels_.face_resolution();
-    const std::size_t side = n + 2 * kBorder;
-    const std::size_t rows = basis::kFaceCount * side;
-    scratch.joined.resize(rows * side);
-    scratch.beside.resize(rows * side);
-    for (std::size_t row = 0; row < rows; ++row) {
-        const std::size_t first = row * side + kBorder;
-        join_columns(&scratch.state[first], n, &scratch.joined[first], &scratch.beside[first]);
-    }
-    scratch.near.clear();
-    scratch.around.clear();
-    scratch.at_edge.resize(n);
-    for (std::size_t row = 0; row < basis::kFaceCount * n; ++row) {
-        const std::size_t first = first_state(row, n);
-        flag_edges(&scratch.state[first], &scratch.joined[first], &scratch.beside[first], side,
-                   n, scratch.at_edge.data());
-        for (std::size_t column = 0; column < n; ++column) {
-            if (scratch.at_edge[column] != 0) {
-                std::vector<std::uint32_t>& edges =
-                    scratch.at_edge[column] == 1 ? scratch.around : scratch.near;
-                edges.push_back(static_cast<std::uint32_t>(
-                    texels_.place_from_texel_index(row * n + column)));
-            }
         }
     }
 }
@@ -213,8 +133,13 @@ void Visibility::refine(RayPacket& packet,
                         std::span<float> open,
                         Scratch& scratch) const {
     const auto extra = static_cast<std::size_t>(std::ceil(most));
-    aim_at_edges(shift, edges, extra, scratch);
-    cast_at_edges(packet, edges, extra, open, scratch);
+    scratch.places.clear();
+    for (const std::uint32_t texel : edges) {
+        scratch.places.push_back(
+            static_cast<std::uint32_t>(texels_.place_from_texel_index(texel)));
+    }
+    aim_at_edges(shift, scratch.places, extra, scratch);
+    cast_at_edges(packet, scratch.places, extra, open, scratch);
 }
 
 // Directions of all further rays, edge by edge.

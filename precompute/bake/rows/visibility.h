@@ -12,6 +12,7 @@
 #include "precompute/bake/rays/ray_caster.h"
 #include "precompute/bake/rows/jitter_shift.h"
 #include "precompute/bake/rows/light_texels.h"
+#include "precompute/bake/rows/shadow_edges.h"
 
 #include <Imath/ImathVec.h>
 
@@ -29,12 +30,8 @@ class Visibility {
 
     // Reused from point to point; one per thread.
     struct Scratch {
-        // By texel, with a border round each face: the state, and those that it has together
-        // with its row's two texels on either side, with and without its own.
-        std::vector<std::uint8_t> state, joined, beside;
-        std::vector<std::uint8_t> at_edge;  // flags of one row of texels
-        // Places where the four beside, or only the 24 around, disagree.
-        std::vector<std::uint32_t> near, around;
+        ShadowEdges edges;
+        std::vector<std::uint32_t> places;  // of edges of one kind
         std::array<std::vector<float>, 3> directions;
         std::uint64_t rays = 0;  // cast so far
     };
@@ -56,8 +53,7 @@ class Visibility {
                     std::span<const float> wanted,
                     std::span<float> open,
                     Scratch& scratch) const;
-    void find_edges(Scratch& scratch) const;
-    // ⌈most⌉ further rays for each of the places.
+    // ⌈most⌉ further rays for each of the texels.
     void refine(RayPacket& packet,
                 const JitterShift& shift,
                 std::span<const std::uint32_t> edges,

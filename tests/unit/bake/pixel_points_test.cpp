@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -80,10 +82,36 @@ TEST(PixelPoints, OneThatTurnsIsFourOfItsTurns) {
             EXPECT_NE(four[i].looking.shift.column, four[j].looking.shift.column);
         }
     }
+    EXPECT_FALSE(four[1].looking.looks_again);
     receiver.surfaces[0].share = 0.3F;
     EXPECT_EQ(points_of_pixel(receiver, indices, 0).size(), 2U);
     receiver.surfaces[0].share = 0.2F;
     EXPECT_EQ(points_of_pixel(receiver, indices, 0).size(), 1U);
+}
+
+TEST(PixelPoints, OneThatDoesNotTurnIsTwoAlikeOfWhichOneLooksAgain) {
+    Receiver receiver;
+    ReceiverSurface surface;
+    surface.share = 0.9F;
+    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        surface.origins[lane] = Imath::V3f(static_cast<float>(lane), 0, 0);
+    }
+    receiver.surfaces = {surface};
+    const auto two = points_of_pixel(receiver, EditableIndices{std::uint8_t{0}}, 0);
+    ASSERT_EQ(two.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(two[i].seen, two[0].seen);
+        EXPECT_EQ(two[i].looking.origins, surface.origins);
+        EXPECT_EQ(two[i].looking.looks_again, i > 0);
+    }
+    // Stratified: the two rays of a texel are not close to each other.
+    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        for (std::size_t i = 1; i < 2; ++i) {
+            const float apart =
+                std::abs(two[i].looking.shift.column[lane] - two[0].looking.shift.column[lane]);
+            EXPECT_GT(std::min(apart, 1 - apart), 0.2F);
+        }
+    }
 }
 
 TEST(PixelPoints, ManySurfacesAreFewPointsOfTheSameShares) {

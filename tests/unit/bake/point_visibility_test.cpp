@@ -31,7 +31,9 @@ std::vector<std::uint64_t> bits_of(const RayCaster& caster,
                                    std::uint64_t& rays) {
     std::vector<std::uint64_t> bits(transport::words_of_visibility(texels.face_resolution()),
                                     ~std::uint64_t{0});
-    PointVisibility(caster, texels).compute(point, bits, rays);
+    PointVisibility::Scratch scratch;
+    PointVisibility(caster, texels).compute(point, bits, scratch);
+    rays += scratch.rays;
     return bits;
 }
 
@@ -95,6 +97,49 @@ TEST_F(PointVisibilityOfThinThings, EqualsSingleRaysAboveTheSurface) {
         // Bits beyond the last texel.
         EXPECT_EQ(n == 4 ? bits.back() >> 32U : 0, 0U);
     }
+}
+
+TEST_F(PointVisibilityOfThinThings, LooksAgainAtShadowEdgesAlone) {
+    const LightTexels texels(16, 7);
+    const PointVisibility visibility(caster_, texels);
+    PointVisibility::Scratch scratch;
+    std::vector<std::uint64_t> first(transport::words_of_visibility(16));
+    std::vector<std::uint64_t> again(first.size());
+    LookingPoint at = point(1);
+    visibility.compute(at, first, scratch);
+    const std::uint64_t rays = scratch.rays;
+    at.shift = random_shift(2);
+    at.looks_again = true;
+    visibility.compute(at, again, scratch);
+    EXPECT_LT(scratch.rays - rays, rays * 3 / 4);
+    // The same ray as before at the same jitter, and another at another one.
+    std::size_t changed = 0;
+    std::size_t at_edge = 0;
+    const auto open = [&](std::size_t face, std::size_t row, std::size_t column) {
+        return transport::is_open(first, (face * 16 + row) * 16 + column);
+    };
+    for (std::size_t face = 0; face < 6; ++face) {
+        for (std::size_t row = 2; row < 14; ++row) {
+            for (std::size_t column = 2; column < 14; ++column) {
+                bool any = false;
+                bool all = true;
+                for (std::size_t y = row - 2; y <= row + 2; ++y) {
+                    for (std::size_t x = column - 2; x <= column + 2; ++x) {
+                        any = any || open(face, y, x);
+                        all = all && open(face, y, x);
+                    }
+                }
+                const bool is_other =
+                    open(face, row, column) !=
+                    transport::is_open(again, (face * 16 + row) * 16 + column);
+                changed += is_other ? 1U : 0U;
+                at_edge += any && !all ? 1U : 0U;
+                EXPECT_TRUE(!is_other || (any && !all)) << face << " " << row << " " << column;
+            }
+        }
+    }
+    EXPECT_GT(changed, 10U);
+    EXPECT_GT(at_edge, changed);
 }
 
 // Where nothing is in the way a texel is open if any of it that a few tries find lies above.
