@@ -27,7 +27,7 @@ inline constexpr std::size_t kPaperLight = 2;
 // ‖a − truth‖/‖truth‖ over colours and vertices.
 [[nodiscard]] double relative_l2(const std::vector<engine::Radiance>& a,
                                  const std::vector<engine::Radiance>& truth);
-// Vertices a second on one thread, of vertices spread over those that are seen.
+// Vertices a second of a processor's time, of vertices spread over those that are seen.
 [[nodiscard]] double vertices_per_second(const SeenSurface& surface,
                                          const TripleWay& way,
                                          std::size_t most);
