@@ -33,7 +33,7 @@ void draw_triple_chart(const std::filesystem::path& stem,
         chart_style() +
         fmt::format(
             "set multiplot layout 1,2\nset logscale xy\nset xlabel 'terms of light "
-            "and of material'\nset key top left\nset ylabel 'µs a vertex'\n{}\n"
+            "and of material'\nset key bottom right\nset ylabel 'µs a vertex'\n{}\n"
             "set key top right\nset ylabel 'relative L2 error, %'\n{}\n"
             "unset multiplot\n",
             plots[0], plots[1]);
