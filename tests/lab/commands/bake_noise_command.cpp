@@ -34,7 +34,7 @@ struct Options {
     bake::BakeParameters bake;  // size, light and bounces are the reference's
     ReferenceOptions reference;
     std::string cache = default_scene_cache() + "/bake-references";
-    std::string output = "bake-noise";
+    std::string output = "out/bake-noise";
     std::string before;
     std::vector<std::uint32_t> crop;  // left, top, width, height; none: all
 };

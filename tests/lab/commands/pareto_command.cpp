@@ -33,7 +33,7 @@ struct ParetoOptions {
     bool of_surfaces = false;
     LabSurface surface{.vertices = 10'000, .side = 256};
     std::string cache = default_scene_cache();
-    std::string output = "pareto";
+    std::string output = "out/pareto";
 };
 
 // What is left out on the command line: of images, or of surfaces under a moving camera.

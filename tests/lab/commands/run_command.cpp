@@ -18,7 +18,7 @@ struct RunOptions {
     SceneOptions scene;
     std::vector<std::string> methods{"nwa-30", "nwa-60", "nwa-100",
                                      "bi-30",  "pbi-30", "pbi-30-transport"};
-    std::string output = "lab";
+    std::string output = "out/lab";
     std::vector<std::uint32_t> pictures;
 };
 

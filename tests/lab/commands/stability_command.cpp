@@ -24,7 +24,7 @@ struct StabilityOptions {
     bool json = false;
     std::uint64_t seed = 1;
     std::string cache = RELUME_STABILITY_CACHE;
-    std::string output = "stability";
+    std::string output = "out/stability";
 };
 
 std::vector<Failure> chosen_failures(const StabilityOptions& options) {

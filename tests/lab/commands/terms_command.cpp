@@ -16,7 +16,7 @@ namespace {
 struct TermsOptions {
     SceneOptions scene;
     std::vector<std::string> methods{"nwa-{}-none", "nwa-{}-area", "nwa-{}-transport"};
-    std::string output = "terms";
+    std::string output = "out/terms";
 };
 
 int run(const TermsOptions& options) {
