@@ -266,8 +266,9 @@ LightSums CodedCluster::error(std::span<const float> steps,
 }
 
 EncodedCluster CodedCluster::encode(std::span<const float> steps,
-                                    std::size_t components,
+                                    std::size_t most_components,
                                     const RowVectors& lights) const {
+    const std::size_t components = std::min(most_components, width_);
     const std::size_t columns = rows_.columns();
     const auto light_count = static_cast<std::size_t>(lights.cols());
     EncodedCluster encoded{.blocks = {},

@@ -14,8 +14,8 @@
 
 namespace relume::lab {
 
-// What a block is stored in: values of vertices, transport::BlockBasis::haar_line, or the
-// principal components of the cluster's rows, the basis being stored beside them.
+// What a block is stored in: transport::BlockBasis::identity or haar_line, or the principal
+// components of the cluster's rows, the basis being stored beside them.
 enum class ClusterBasis : std::uint8_t { identity, haar_line, learned };
 
 // The step of every coefficient of light, [N], as bake::StepChooser's rule has them:
@@ -77,9 +77,9 @@ class CodedCluster {
                                   std::size_t most) const;
     [[nodiscard]] const LightSums& energy() const { return energy_; }
 
-    // `lights` is [N][count].
+    // The leading components, or all where there are fewer. `lights` is [N][count].
     [[nodiscard]] EncodedCluster encode(std::span<const float> steps,
-                                        std::size_t components,
+                                        std::size_t most_components,
                                         const RowVectors& lights) const;
 
     [[nodiscard]] std::span<const std::uint32_t> members() const { return members_; }

@@ -17,7 +17,7 @@ constexpr std::uint32_t kVertices = 30;
 constexpr std::uint32_t kChannels = 2;
 
 // Of two terms, near a subspace of three dimensions.
-VertexRows made_up_rows() {
+VertexRows made_up_rows(float noise = 0.01F) {
     VertexRows rows;
     rows.basis = basis::CubemapBasis::haar(4);
     rows.channels = kChannels;
@@ -28,7 +28,7 @@ VertexRows made_up_rows() {
     const auto draw = [&] { return normal(random); };
     const RowVectors mix = RowVectors::NullaryExpr(kVertices, 3, draw);
     const RowVectors values = mix * RowVectors::NullaryExpr(3, row, draw) +
-                              0.01F * RowVectors::NullaryExpr(kVertices, row, draw);
+                              noise * RowVectors::NullaryExpr(kVertices, row, draw);
     rows.values.assign(values.data(), values.data() + values.size());
     for (std::uint32_t v = 0; v < kVertices; ++v) {
         rows.first.push_back(rows.first.back() + 2 * kChannels);
@@ -152,6 +152,64 @@ TEST(CodedRows, OfALowRankNeedFewComponents) {
     const StoredRows stored = coded.store(steps_of_rule(rows.basis, rule), none);
     EXPECT_EQ(stored.components, (std::vector<std::size_t>{3, 1, 1}));
     EXPECT_EQ(stored.bytes.bases, 3 * (2 * 28 + 4) + 2 * (2 * 1 + 4));
+}
+
+// What the stored coefficients make of the cluster's rows, against these.
+double relative_error(const VertexRows& rows,
+                      const CodedCluster& cluster,
+                      const EncodedCluster& encoded) {
+    const std::size_t values = cluster.planes() * rows.columns();
+    std::vector<float> column(cluster.width());
+    double energy = 0;
+    double error = 0;
+    for (std::size_t value = 0; value < values; ++value) {
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            column[i] = encoded.answers[i * values + value];
+        }
+        cluster.vertices_from_components(column, encoded.components);
+        for (std::size_t i = 0; i < cluster.members().size(); ++i) {
+            const double exact = rows.row(cluster.members()[i])[value];
+            energy += exact * exact;
+            error += (column[i] - exact) * (column[i] - exact);
+        }
+    }
+    return std::sqrt(error / energy);
+}
+
+TEST(CodedRows, OfAsManyComponentsAsTheRankAreTheRows) {
+    const VertexRows rows = made_up_rows(0);
+    const LightWeights weights(rows.basis);
+    const CodedRows coded(rows, made_up_clusters(), weights,
+                          {.basis = ClusterBasis::learned, .falloff = 0.25F});
+    const std::vector<float> steps(rows.columns(), 1e-6F);
+    const CodedCluster& cluster = coded.clusters()[0];
+    const RowVectors lights = every_coefficient(rows);
+    EXPECT_LT(relative_error(rows, cluster, cluster.encode(steps, 3, lights)), 1e-4);
+    EXPECT_GT(relative_error(rows, cluster, cluster.encode(steps, 2, lights)), 0.1);
+}
+
+// S may be larger than a cluster: then it is the cluster's size.
+TEST(CodedRows, OfMoreComponentsThanVerticesHaveAsManyAsVertices) {
+    const VertexRows rows = made_up_rows();
+    const LightWeights weights(rows.basis);
+    for (const ClusterBasis basis : {ClusterBasis::learned, ClusterBasis::identity}) {
+        const CodedRows coded(rows, made_up_clusters(), weights,
+                              {.basis = basis, .falloff = 0.25F, .most_components = 1000});
+        const std::vector<float> steps(rows.columns(), 1e-6F);
+        for (const CodedCluster& cluster : coded.clusters()) {
+            const std::size_t members = cluster.members().size();
+            const RowVectors lights = every_coefficient(rows);
+            const EncodedCluster more = cluster.encode(steps, 1000, lights);
+            const EncodedCluster all = cluster.encode(steps, members, lights);
+            EXPECT_EQ(more.components, members);
+            EXPECT_EQ(more.answers, all.answers);
+            EXPECT_EQ(more.basis_bytes, all.basis_bytes);
+            EXPECT_LT(relative_error(rows, cluster, more), 1e-4);
+            EXPECT_LE(cluster.components(steps, 1000), members);
+        }
+        const RowVectors none(static_cast<Eigen::Index>(rows.columns()), 0);
+        EXPECT_EQ(coded.store(steps, none).components, (std::vector<std::size_t>{28, 1, 1}));
+    }
 }
 
 TEST(ShardBytes, AreThoseOfAShard) {
