@@ -23,6 +23,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace relume::bake {
@@ -165,6 +166,7 @@ class Bake {
             quantisation_ = plan_quantisation(*rows_, parameters_.bits, parameters_.seed);
         }
         manifest_.colour = quantisation_.colour;
+        manifest_.block_basis = quantisation_.block_basis;
         shards_ = shards_of(receivers);
         transport::TransportWriter writer(directory_, manifest_, plan_of(shards_));
         const ShardNotesFolder notes(directory_, manifest_.fingerprint);
@@ -253,6 +255,10 @@ class Bake {
         nlohmann::json measured = subject_->measured();
         measured["quantisation_error"] = json_from_errors(errors);
         measured["chroma_residual"] = quantisation_.chroma_residual;
+        for (const auto& [basis, bytes] : quantisation_.bytes_of_basis) {
+            const std::string name(transport::kBlockBasisNames.name(basis));
+            measured["bytes_of_basis"][name] = bytes;
+        }
         writer.finish(tables, measured);
         notes.remove();
         subject_->write_files(directory_);

@@ -57,7 +57,6 @@ void ImageSubject::describe(transport::Manifest& manifest) const {
     manifest.kind = transport::Kind::image;
     manifest.signal_basis = signal_basis(parameters_);
     manifest.layout = transport::ReceiverLayout::pixel_tiles(pixels_.image());
-    manifest.block_basis = transport::BlockBasis::haar_tile;
     manifest.camera = record_of(pixels_.camera(), scene_.frame);
     std::string fields;
     if (editable_) {

@@ -206,6 +206,12 @@ std::string lines_from_measured(const nlohmann::json& measured) {
             }
         }
     }
+    if (measured.contains("bytes_of_basis")) {
+        for (const auto& [basis, bytes] : measured.at("bytes_of_basis").items()) {
+            text += fmt::format("  blocks looked at before the bake take {:.2f} MB in {}\n",
+                                1e-6 * bytes.get<double>(), basis);
+        }
+    }
     if (measured.contains("chroma_residual")) {
         text += fmt::format("  what one channel would lose: L2 {:.2e}\n",
                             measured.at("chroma_residual").get<double>());

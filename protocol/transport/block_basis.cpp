@@ -102,18 +102,24 @@ RELUME_CPU_CLONES void line_receivers_from_coefficients(std::span<float, kBlockS
 }  // namespace
 
 void block_coefficients_from_receivers(BlockBasis basis, std::span<float, kBlockSize> values) {
-    if (basis == BlockBasis::haar_tile) {
-        tile_coefficients_from_receivers(values);
-    } else {
-        line_coefficients_from_receivers(values);
+    switch (basis) {
+        case BlockBasis::haar_tile:
+            return tile_coefficients_from_receivers(values);
+        case BlockBasis::haar_line:
+            return line_coefficients_from_receivers(values);
+        case BlockBasis::identity:
+            return;
     }
 }
 
 void block_receivers_from_coefficients(BlockBasis basis, std::span<float, kBlockSize> values) {
-    if (basis == BlockBasis::haar_tile) {
-        tile_receivers_from_coefficients(values);
-    } else {
-        line_receivers_from_coefficients(values);
+    switch (basis) {
+        case BlockBasis::haar_tile:
+            return tile_receivers_from_coefficients(values);
+        case BlockBasis::haar_line:
+            return line_receivers_from_coefficients(values);
+        case BlockBasis::identity:
+            return;
     }
 }
 

@@ -15,6 +15,9 @@
 // neighbours on the surface, pair by pair, pair of pairs by pair of pairs. They are stored in
 // the orthonormal 1-D Haar basis of the 256 slots: slot 0 holds the scaling coefficient, slot
 // 2^ℓ + i the i-th wavelet of level ℓ = 0 … 7, which is positive on its first half.
+//
+// identity. Where a surface is refined until neighbours differ, a mean and a difference hold no
+// less than two values do: slot i holds the value of receiver i.
 #pragma once
 
 #include "protocol/base/text/name_table.h"
@@ -46,11 +49,12 @@ inline constexpr std::array<std::uint8_t, kBlockSize> kZOrder = [] {
 }();
 
 // Which of the bases below a transport's blocks are stored in.
-enum class BlockBasis : std::uint8_t { haar_tile, haar_line };
+enum class BlockBasis : std::uint8_t { haar_tile, haar_line, identity };
 
-inline constexpr text::NameTable<BlockBasis, 2> kBlockBasisNames({{
+inline constexpr text::NameTable<BlockBasis, 3> kBlockBasisNames({{
     {BlockBasis::haar_tile, "haar_tile"},
     {BlockBasis::haar_line, "haar_line"},
+    {BlockBasis::identity, "identity"},
 }});
 
 // From the values of a block's receivers, by slot, to coefficients, and back; in place.

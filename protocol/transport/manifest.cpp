@@ -92,9 +92,10 @@ void read_receivers(const ManifestReader& top, Manifest& manifest) {
         return;
     }
     const auto basis = kBlockBasisNames.value(top.string("block_basis"));
-    if (!basis) {
+    if (!basis || *basis == BlockBasis::haar_tile) {
         top.fail("block_basis", text::quote(top.string("block_basis")),
-                 kBlockBasisNames.alternatives());
+                 fmt::format("{} or {}", kBlockBasisNames.name(BlockBasis::haar_line),
+                             kBlockBasisNames.name(BlockBasis::identity)));
     }
     manifest.block_basis = *basis;
     const ManifestReader mesh = top.object("mesh");

@@ -65,6 +65,15 @@ LobeRecord lobe_record(const ManifestReader& object) {
     return lobe;
 }
 
+CutoutRecord cutout_record(const ManifestReader& object) {
+    const json& cutoff = object.member("cutoff");
+    if (!is_single(cutoff)) {
+        object.fail("cutoff", text::quote(cutoff), "a finite number");
+    }
+    return {.texture = object.integer32("texture", 0, kMostTextures - 1),
+            .cutoff = cutoff.get<float>()};
+}
+
 }  // namespace
 
 json json_from(const MeshSection& mesh, const VertexClusters& clusters) {
@@ -78,8 +87,12 @@ json json_from(const MeshSection& mesh, const VertexClusters& clusters) {
             }
             lobes.push_back(std::move(object));
         }
-        materials.push_back(
-            {{"name", material.name}, {"brdf", material.brdf}, {"lobes", std::move(lobes)}});
+        json& object = materials.emplace_back(json{
+            {"name", material.name}, {"brdf", material.brdf}, {"lobes", std::move(lobes)}});
+        if (material.cutout) {
+            object["cutout"] = {{"texture", material.cutout->texture},
+                                {"cutoff", material.cutout->cutoff}};
+        }
     }
     json list = json::array();
     for (const Cluster& cluster : clusters.clusters()) {
@@ -107,6 +120,9 @@ MeshSection mesh_section(const ManifestReader& object) {
             for_each_object(entry, "lobes", kMostLobes, [&](const ManifestReader& lobe) {
                 material.lobes.push_back(lobe_record(lobe));
             });
+            if (entry.has("cutout")) {
+                material.cutout = cutout_record(entry.object("cutout"));
+            }
             mesh.materials.push_back(std::move(material));
         });
     return mesh;

@@ -33,10 +33,20 @@ struct LobeRecord {
     friend bool operator==(const LobeRecord&, const LobeRecord&) = default;
 };
 
+// Holes of a material: there is nothing where the red of the texture of that number, bilinear
+// between the middles of its texels, is below the cutoff.
+struct CutoutRecord {
+    std::uint32_t texture = 0;
+    float cutoff = 0.5F;
+
+    friend bool operator==(const CutoutRecord&, const CutoutRecord&) = default;
+};
+
 struct MaterialRecord {
     std::string name;
     std::uint32_t brdf = 0;         // its number in brdfs.bin
     std::vector<LobeRecord> lobes;  // as many as the BRDF has
+    std::optional<CutoutRecord> cutout{};
 
     friend bool operator==(const MaterialRecord&, const MaterialRecord&) = default;
 };

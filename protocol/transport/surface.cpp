@@ -46,6 +46,13 @@ void check_materials(const Manifest& manifest, const Surface& surface) {
             }
         }
     }
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const auto& cutout = materials[i].cutout;
+        if (cutout && cutout->texture >= surface.textures.size()) {
+            fail(fmt::format("manifest.mesh.materials[{}].cutout", i), cutout->texture,
+                 fmt::format("one of {} textures", surface.textures.size()));
+        }
+    }
     const std::span<const Cluster> clusters = manifest.layout.clusters().clusters();
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         const std::uint32_t terms = surface.brdfs[materials[clusters[i].material].brdf].terms;
@@ -65,6 +72,18 @@ std::vector<std::uint32_t> material_from_vertex(const VertexClusters& clusters) 
 }
 
 }  // namespace
+
+bool is_solid_at(const Surface& surface,
+                 const CutoutRecord& cutout,
+                 std::uint32_t triangle,
+                 float weight_1,
+                 float weight_2) {
+    const auto& uvs = surface.mesh.triangles[triangle].uvs;
+    const Imath::V2f uv = surface.mesh.uvs[uvs[0]] * (1 - weight_1 - weight_2) +
+                          surface.mesh.uvs[uvs[1]] * weight_1 +
+                          surface.mesh.uvs[uvs[2]] * weight_2;
+    return red_at(surface.textures[cutout.texture], uv) >= cutout.cutoff;
+}
 
 Surface surface_from_files(const Manifest& manifest, const SurfaceFiles& files) {
     Surface surface{.mesh = surface_mesh_from_bytes(files.mesh.bytes, files.mesh.name),

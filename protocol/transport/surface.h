@@ -7,6 +7,7 @@
 #include "protocol/transport/surface_textures.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,14 @@ struct Surface {
     std::vector<brdf::FactoredBrdf> brdfs;
     std::vector<SurfaceTexture> textures;
 };
+
+// False where a triangle of a material with holes has one: the weights are of its second and
+// third corner. Thread-safe.
+[[nodiscard]] bool is_solid_at(const Surface& surface,
+                               const CutoutRecord& cutout,
+                               std::uint32_t triangle,
+                               float weight_1,
+                               float weight_2);
 
 // The bytes of the files of a surface, with their names for messages.
 struct SurfaceFiles {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -54,7 +55,48 @@ void append(std::vector<std::byte>& bytes, const T* values, std::size_t count) {
     bytes.insert(bytes.end(), first, first + count * sizeof(T));
 }
 
+std::uint32_t wrapped(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+    const std::int64_t texels = size;
+    if (wrap == TextureWrap::clamp) {
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(at, 0, texels - 1));
+    }
+    const std::int64_t period = wrap == TextureWrap::mirror ? 2 * texels : texels;
+    const std::int64_t within = (at % period + period) % period;
+    return static_cast<std::uint32_t>(within < texels ? within : period - 1 - within);
+}
+
+// Along one side: the texels around a place, and how much the second counts.
+struct TexelPair {
+    std::uint32_t first;
+    std::uint32_t second;
+    float share;
+};
+TexelPair texels_around(float place, std::uint32_t size, TextureWrap wrap) {
+    constexpr float kMost = 0x1p22F;  // beyond it a float knows no places between texels
+    const float texels = place > -kMost && place < kMost ? place - 0.5F : 0;
+    const float below = std::floor(texels);
+    const auto first = static_cast<std::int64_t>(below);
+    return {.first = wrapped(first, size, wrap),
+            .second = wrapped(first + 1, size, wrap),
+            .share = texels - below};
+}
+
 }  // namespace
+
+float red_at(const SurfaceTexture& texture, const Imath::V2f& uv) {
+    const TexelPair columns =
+        texels_around(uv.x * static_cast<float>(texture.width), texture.width, texture.wrap_u);
+    const TexelPair rows = texels_around((1 - uv.y) * static_cast<float>(texture.height),
+                                         texture.height, texture.wrap_v);
+    const auto red = [&](std::uint32_t column, std::uint32_t row) {
+        return static_cast<float>(texture.rgb[3 * (std::size_t{row} * texture.width + column)]);
+    };
+    const auto in_row = [&](std::uint32_t row) {
+        return red(columns.first, row) * (1 - columns.share) +
+               red(columns.second, row) * columns.share;
+    };
+    return in_row(rows.first) * (1 - rows.share) + in_row(rows.second) * rows.share;
+}
 
 std::vector<std::byte> bytes_from_textures(std::span<const SurfaceTexture> textures) {
     const std::array<std::uint32_t, 4> counts{static_cast<std::uint32_t>(textures.size())};

@@ -1,6 +1,7 @@
 // Pictures on a surface: what lobe colours are multiplied with, pixel by pixel.
 #pragma once
 
+#include <Imath/ImathVec.h>
 #include <Imath/half.h>
 
 #include <cstddef>
@@ -25,6 +26,10 @@ struct SurfaceTexture {
     // lower left corner has the texture coordinates (0, 0).
     std::vector<half> rgb;
 };
+
+// Red at texture coordinates, bilinear between the middles of texels. Finite wherever it is
+// looked at. Thread-safe.
+[[nodiscard]] float red_at(const SurfaceTexture& texture, const Imath::V2f& uv);
 
 // The content of textures.bin (protocol/README.md §2), which may hold none. Reading checks that
 // the length is that of the sizes before anything is allocated for them; it throws

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 namespace relume::test {
@@ -35,7 +36,38 @@ bake::CubemapLight law_light() {
     return light;
 }
 
-// A box whose white surfaces are satin, baked for cameras that move.
+// A sheet with round holes, in front of everything else.
+void add_sheet(scene::Scene& scene) {
+    constexpr std::uint32_t kTexels = 8;
+    std::vector<half> rgba;
+    for (std::uint32_t i = 0; i < kTexels * kTexels; ++i) {
+        const std::uint32_t x = i % kTexels % 4;
+        const std::uint32_t y = i / kTexels % 4;
+        const bool is_hole = (x == 1 || x == 2) && (y == 1 || y == 2);
+        rgba.insert(rgba.end(), {half(0.9F), half(0.7F), half(0.2F), half(is_hole ? 0 : 1)});
+    }
+    scene.textures.emplace_back("holes", kTexels, kTexels, std::move(rgba));
+    scene.materials.push_back({.name = "sheet",
+                               .base_colour = {1, 1, 1},
+                               .alpha_cutoff = 0.5F,
+                               .base_texture = scene::TextureUse(0)});
+    scene::Mesh sheet;
+    sheet.name = "sheet";
+    sheet.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    const Imath::Box3f bounds = scene.bounds();
+    const Imath::V3f middle = bounds.center();
+    const float side = 0.2F * bounds.size().x;
+    for (const auto& [x, y] : {std::pair{-1.0F, -1.0F}, {1, -1}, {1, 1}, {-1, 1}}) {
+        sheet.positions.emplace_back(middle.x + side * x, middle.y + side * y,
+                                     bounds.max.z - 0.1F * bounds.size().z);
+        sheet.uvs.emplace_back(x, y);
+    }
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.meshes.push_back(std::move(sheet));
+    scene::finish_scene(scene);
+}
+
+// A box whose white surfaces are satin, behind a sheet with holes, baked for cameras that move.
 class MeshViewLaw : public testing::Test {
   protected:
     MeshViewLaw() {
@@ -45,6 +77,7 @@ class MeshViewLaw : public testing::Test {
                               .base_colour = {0.5F, 0.5F, 0.5F},
                               .specular = {0.3F, 0.25F, 0.2F},
                               .exponent = 8};
+        add_sheet(scene);
         bake::BakeParameters parameters;
         parameters.receivers = bake::ReceiverKind::vertices;
         parameters.width = 72;

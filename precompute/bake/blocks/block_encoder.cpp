@@ -15,15 +15,19 @@ constexpr std::size_t kGroupColumns = 16;
 using Cell = std::array<float, kBlockSize>;
 using ColumnGroup = std::array<Cell, kGroupColumns>;
 
-// Receivers without a row are not looked at: they get the mean of the others, which costs the
-// fewest coefficients.
-void transpose(const BlockRows& rows,
+// Receivers without a row are not looked at: they get what costs the fewest coefficients, in
+// wavelets the mean of the others.
+void transpose(transport::BlockBasis basis,
+               const BlockRows& rows,
                std::uint32_t channel,
                std::size_t first,
                std::size_t count,
                ColumnGroup& group) {
     std::array<float, kGroupColumns> mean{};
-    const float share = 1 / static_cast<float>(std::max<std::size_t>(rows.present_count(), 1));
+    const float share =
+        basis == transport::BlockBasis::identity
+            ? 0
+            : 1 / static_cast<float>(std::max<std::size_t>(rows.present_count(), 1));
     for (std::uint32_t slot = 0; slot < kBlockSize; ++slot) {
         if (const float* row = rows.row(slot, channel); row != nullptr) {
             for (std::size_t i = 0; i < count; ++i) {
@@ -78,7 +82,7 @@ transport::EncodedBlock encode_block(transport::BlockBasis basis,
     for (std::size_t first = 0; first < rows.columns(); first += kGroupColumns) {
         const std::size_t count = std::min(kGroupColumns, rows.columns() - first);
         for (std::uint32_t k = 0; k < channels; ++k) {
-            transpose(rows, k, first, count, groups[k]);
+            transpose(basis, rows, k, first, count, groups[k]);
         }
         for (std::size_t i = 0; i < count; ++i) {
             for (std::uint32_t k = 0; k < channels; ++k) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace relume::bake {
@@ -20,6 +21,8 @@ constexpr double kColourless = 1e-3;
 constexpr std::size_t kLookedAt = 16384;
 constexpr std::size_t kChromaReceivers = 128;  // of each group
 constexpr SampleCount kPilotClusters{.every = 16, .least = 1, .most = 16};
+// Where there is a basis to choose.
+constexpr SampleCount kChoosingClusters{.every = 12, .least = 8, .most = 16};
 
 // Receivers of one kind among those looked at, and a few of them spread evenly.
 struct ReceiverGroup {
@@ -82,15 +85,16 @@ double measure_chroma(const RowSource& rows) {
 // the whole row.
 StepChooser look_at_clusters(const RowSource& rows, std::uint64_t seed) {
     const Receivers& receivers = rows.receivers();
-    const std::vector<std::uint32_t> clusters =
-        sample_clusters(receivers, kPilotClusters, seed);
+    const std::vector<std::uint32_t> clusters = sample_clusters(
+        receivers, receivers.block_bases().size() > 1 ? kChoosingClusters : kPilotClusters,
+        seed);
     std::vector<std::size_t> first_block;
     std::size_t blocks = 0;
     for (const std::uint32_t cluster : clusters) {
         first_block.push_back(blocks);
         blocks += receivers.terms(cluster);
     }
-    StepChooser chooser(rows.signals(), receivers.block_basis(), blocks);
+    StepChooser chooser(rows.signals(), blocks);
     tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(
         std::size_t{0}, clusters.size() * transport::kBlockSize, [&](std::size_t i) {
@@ -118,8 +122,12 @@ Quantisation plan_quantisation(const RowSource& rows, std::uint32_t bits, std::u
     Quantisation plan;
     plan.chroma_residual = measure_chroma(rows);
     plan.colour = plan.chroma_residual < kColourless ? grey_model() : luma_chroma_model();
-    plan.steps =
-        look_at_clusters(rows, seed).steps(bits + rows.signals().further_bits, plan.colour);
+    ChosenSteps chosen = look_at_clusters(rows, seed)
+                             .choose(bits + rows.signals().further_bits, plan.colour,
+                                     rows.receivers().block_bases());
+    plan.block_basis = chosen.basis;
+    plan.steps = std::move(chosen.steps);
+    plan.bytes_of_basis = std::move(chosen.bytes_of_basis);
     return plan;
 }
 

@@ -116,7 +116,7 @@ void ShardBaker::bake_cluster(std::uint32_t number,
     }
     for (std::size_t term = 0; term < blocks.size(); ++term) {
         Block& block = blocks[term];
-        shard.blocks[first_block + term] = encode_block(receivers.block_basis(), block.rows,
+        shard.blocks[first_block + term] = encode_block(quantisation_.block_basis, block.rows,
                                                         quantisation_.steps, block.stored);
         shard.notes.errors[first_block + term] = measure(block);
     }

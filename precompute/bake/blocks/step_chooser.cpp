@@ -1,6 +1,7 @@
 #include "precompute/bake/blocks/step_chooser.h"
 
 #include "protocol/transport/block_basis.h"
+#include "protocol/transport/cell_cost.h"
 #include "protocol/transport/quantise.h"
 
 #include <tbb/parallel_for.h>
@@ -40,10 +41,8 @@ float largest_within(float high, Holds holds) {
 
 }  // namespace
 
-StepChooser::StepChooser(const SignalModel& signals,
-                         transport::BlockBasis block_basis,
-                         std::size_t blocks)
-    : signals_(signals), block_basis_(block_basis), blocks_(blocks) {
+StepChooser::StepChooser(const SignalModel& signals, std::size_t blocks)
+    : signals_(signals), blocks_(blocks) {
     std::vector<std::vector<std::uint32_t>> of_band(signals.natural_weight.size());
     for (std::uint32_t j = 0; j < signals.band.size(); ++j) {
         of_band[signals.band[j]].push_back(j);
@@ -59,9 +58,11 @@ StepChooser::StepChooser(const SignalModel& signals,
         }
     }
     cells_.assign(columns_.size() * blocks_, Cell{});
+    is_set_.assign(blocks_, {});
 }
 
 void StepChooser::set_row(std::size_t block, std::uint32_t slot, std::span<const float> row) {
+    is_set_[block][slot] = true;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         cells_[i * blocks_ + block][slot] = row[columns_[i].index];
     }
@@ -120,8 +121,88 @@ StepChooser::SquaredErrors StepChooser::errors(Step step) const {
     });
 }
 
-std::vector<float> StepChooser::steps(std::uint32_t bits,
-                                      const transport::ColourModel& colour) {
+StepChooser::StepRule StepChooser::rule_for(const SquaredErrors& target) const {
+    float high = 0;
+    for (const Cell& cell : cells_) {
+        high = std::max(high, largest(cell));
+    }
+    const std::vector<float>& growth = signals_.step_growth;
+    return {.scale = largest_within(high,
+                                    [&](float candidate) {
+                                        return errors([&](const Column& column) {
+                                                   return candidate * growth[column.band];
+                                               }).natural < target.natural;
+                                    }),
+            .coarsest = largest_within(high, [&](float step) {
+                return errors([&](const Column&) { return step; }).lone_light <
+                       target.lone_light;
+            })};
+}
+
+float StepChooser::step_of_band(const StepRule& rule, std::uint32_t band) const {
+    return std::min(rule.scale * signals_.step_growth[band], rule.coarsest);
+}
+
+void StepChooser::fill_empty_slots() {
+    for (std::size_t block = 0; block < blocks_; ++block) {
+        const auto& is_set = is_set_[block];
+        const auto count = static_cast<float>(std::count(is_set.begin(), is_set.end(), true));
+        for (std::size_t i = 0; count > 0 && i < columns_.size(); ++i) {
+            Cell& cell = cells_[i * blocks_ + block];
+            float sum = 0;
+            for (std::size_t slot = 0; slot < cell.size(); ++slot) {
+                sum += is_set[slot] ? cell[slot] : 0.0F;
+            }
+            for (std::size_t slot = 0; slot < cell.size(); ++slot) {
+                cell[slot] = is_set[slot] ? cell[slot] : sum / count;
+            }
+        }
+    }
+}
+
+void StepChooser::transform(transport::BlockBasis basis) {
+    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+        transport::block_coefficients_from_receivers(basis, cells_[i]);
+    });
+}
+
+double StepChooser::bytes(const StepRule& rule) const {
+    std::vector<double> bytes(columns_.size());
+    tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t i) {
+        const float step = step_of_band(rule, columns_[i].band);
+        for (std::size_t block = 0; block < blocks_; ++block) {
+            transport::QuantisedCell quantised{};
+            transport::quantise_cell(cells_[i * blocks_ + block], step, quantised);
+            const auto shape = transport::CellShape::of(quantised);
+            bytes[i] += static_cast<double>(shape.bytes(shape.cheapest()));
+        }
+    });
+    double sum = 0;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        sum += bytes[i] * columns_[i].weight;
+    }
+    return sum;
+}
+
+std::vector<float> StepChooser::steps_of_rule(const StepRule& rule,
+                                              const transport::ColourModel& colour) const {
+    std::vector<float> steps;
+    for (const std::uint32_t band : signals_.band) {
+        for (std::uint32_t k = 0; k < colour.channels; ++k) {
+            // So that a channel's error weighs alike in the colours.
+            double norm = 0;
+            for (const auto& row : colour.matrix) {
+                norm += double{row[k]} * row[k];
+            }
+            steps.push_back(step_of_band(rule, band) * static_cast<float>(std::sqrt(3 / norm)));
+        }
+    }
+    return steps;
+}
+
+ChosenSteps StepChooser::choose(std::uint32_t bits,
+                                const transport::ColourModel& colour,
+                                std::span<const transport::BlockBasis> bases) {
     SquaredErrors target = column_range_errors(bits);
     const SquaredErrors energy = sum_over_cells([](std::size_t, const Cell& cell) {
         double sum = 0;
@@ -133,35 +214,30 @@ std::vector<float> StepChooser::steps(std::uint32_t bits,
     target.natural = std::max(target.natural, kFinestError * kFinestError * energy.natural);
     target.lone_light =
         std::max(target.lone_light, kFinestError * kFinestError * energy.lone_light);
-    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
-        transport::block_coefficients_from_receivers(block_basis_, cells_[i]);
-    });
-    float high = 0;
-    for (const Cell& cell : cells_) {
-        high = std::max(high, largest(cell));
+    ChosenSteps chosen;
+    double fewest = std::numeric_limits<double>::infinity();
+    if (bases.size() == 1) {
+        transform(bases.front());
+        return {.basis = bases.front(),
+                .steps = steps_of_rule(rule_for(target), colour),
+                .bytes_of_basis = {}};
     }
-    const std::vector<float>& growth = signals_.step_growth;
-    const float scale = largest_within(high, [&](float candidate) {
-        return errors([&](const Column& column) {
-                   return candidate * growth[column.band];
-               }).natural < target.natural;
-    });
-    const float coarsest = largest_within(high, [&](float step) {
-        return errors([&](const Column&) { return step; }).lone_light < target.lone_light;
-    });
-    std::vector<float> steps;
-    for (const std::uint32_t band : signals_.band) {
-        for (std::uint32_t k = 0; k < colour.channels; ++k) {
-            // So that a channel's error weighs alike in the colours.
-            double norm = 0;
-            for (const auto& row : colour.matrix) {
-                norm += double{row[k]} * row[k];
-            }
-            steps.push_back(std::min(scale * growth[band], coarsest) *
-                            static_cast<float>(std::sqrt(3 / norm)));
+    const std::vector<Cell> receivers = cells_;
+    for (const transport::BlockBasis basis : bases) {
+        cells_ = receivers;
+        if (basis != transport::BlockBasis::identity) {
+            fill_empty_slots();
+        }
+        transform(basis);
+        const StepRule rule = rule_for(target);
+        chosen.bytes_of_basis.push_back({.basis = basis, .bytes = bytes(rule)});
+        if (chosen.bytes_of_basis.back().bytes < fewest) {
+            fewest = (1 - kWorthwhile) * chosen.bytes_of_basis.back().bytes;
+            chosen.basis = basis;
+            chosen.steps = steps_of_rule(rule, colour);
         }
     }
-    return steps;
+    return chosen;
 }
 
 }  // namespace relume::bake

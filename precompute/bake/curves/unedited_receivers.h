@@ -23,8 +23,8 @@ class UneditedReceivers final : public Receivers {
     [[nodiscard]] std::uint32_t terms(std::uint32_t cluster) const override {
         return pixels_.terms(cluster);
     }
-    [[nodiscard]] transport::BlockBasis block_basis() const override {
-        return pixels_.block_basis();
+    [[nodiscard]] std::span<const transport::BlockBasis> block_bases() const override {
+        return pixels_.block_bases();
     }
     [[nodiscard]] std::uint32_t clusters_per_shard() const override {
         return pixels_.clusters_per_shard();

@@ -118,8 +118,37 @@ class MaterialReader {
     void add(factors::Factorisation factored, std::vector<transport::LobeRecord> lobes) {
         out_.records.push_back({.name = material_.name,
                                 .brdf = static_cast<std::uint32_t>(out_.factored.size()),
-                                .lobes = std::move(lobes)});
+                                .lobes = std::move(lobes),
+                                .cutout = cutout_record()});
         out_.factored.push_back(std::move(factored));
+    }
+
+    // Alpha, as a texture of its own.
+    [[nodiscard]] std::optional<transport::CutoutRecord> cutout_record() {
+        if (!material_.has_holes()) {
+            return std::nullopt;
+        }
+        transport::SurfaceTexture texture{.width = 1, .height = 1, .rgb = {}};
+        const scene::Texture* alpha = nullptr;
+        if (material_.base_texture) {
+            alpha = &scene_.textures[material_.base_texture->texture];
+            texture.width = std::min(alpha->width(), kMostTexels);
+            texture.height = std::min(alpha->height(), kMostTexels);
+            texture.wrap_u = wrap_from(alpha->wrap_u());
+            texture.wrap_v = wrap_from(alpha->wrap_v());
+        }
+        const Grid grid{.width = texture.width, .height = texture.height};
+        for (std::uint32_t y = 0; y < grid.height; ++y) {
+            for (std::uint32_t x = 0; x < grid.width; ++x) {
+                const float of_texel = alpha != nullptr ? alpha->evaluate(grid.uv(x, y)).w : 1;
+                const half value = std::max(0.0F, material_.opacity * of_texel);
+                texture.rgb.insert(texture.rgb.end(), 3, value);
+            }
+        }
+        out_.textures.push_back(std::move(texture));
+        return transport::CutoutRecord{
+            .texture = static_cast<std::uint32_t>(out_.textures.size() - 1),
+            .cutoff = *material_.alpha_cutoff};
     }
 
     void note(const std::string& what) {
@@ -186,8 +215,13 @@ class MaterialReader {
         if (material_.normal_texture) {
             note("its normal map is not shown");
         }
-        if (material_.has_holes()) {
-            note("its holes let light through, and are not seen");
+        const bool has_opacities = std::any_of(
+            scene_.meshes.begin(), scene_.meshes.end(), [&](const scene::Mesh& mesh) {
+                return !mesh.opacities.empty() &&
+                       &scene_.materials[mesh.material] == &material_;
+            });
+        if (material_.has_holes() && has_opacities) {
+            note("opacities of vertices let light through its holes, and are not seen");
         }
         if (std::any_of(uses_.begin(), uses_.end(),
                         [](const scene::TextureUse& use) { return use.uv_set != 0; })) {

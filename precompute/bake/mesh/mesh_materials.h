@@ -19,7 +19,7 @@ struct MeshMaterials {
     std::vector<factors::Factorisation> factored;
     std::vector<transport::MaterialRecord> records;
     std::vector<transport::SurfaceTexture> textures;
-    // What of the materials is not shown: detail of roughness, normal maps, colours of
+    // What of the materials is not shown: detail of roughness, normal maps, opacities of
     // vertices.
     std::vector<std::string> notes;
 

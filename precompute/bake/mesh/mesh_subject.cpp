@@ -100,7 +100,6 @@ transport::SamplingError MeshSubject::sampling_error(
 void MeshSubject::describe(transport::Manifest& manifest) const {
     manifest.kind = transport::Kind::mesh;
     manifest.signal_basis = signal_basis(parameters_);
-    manifest.block_basis = vertices_.block_basis();
     std::vector<transport::Cluster> clusters;
     for (const VertexCluster& cluster : surface_.clusters) {
         clusters.push_back({.vertices = cluster.count,

@@ -8,26 +8,35 @@
 #include <limits>
 
 namespace relume::bake {
-namespace {
 
 // Embree's normal has the sense of the corners.
-void refuse_backs(const RTCFilterFunctionNArguments* arguments) {
+void SurfaceCaster::refuse_unseen(const RTCFilterFunctionNArguments* arguments) {
+    const auto& self = *static_cast<const SurfaceCaster*>(arguments->geometryUserPtr);
     const unsigned count = arguments->N;
     for (unsigned i = 0; i < count; ++i) {
         const float along =
             RTCHitN_Ng_x(arguments->hit, count, i) * RTCRayN_dir_x(arguments->ray, count, i) +
             RTCHitN_Ng_y(arguments->hit, count, i) * RTCRayN_dir_y(arguments->ray, count, i) +
             RTCHitN_Ng_z(arguments->hit, count, i) * RTCRayN_dir_z(arguments->ray, count, i);
-        if (along >= 0) {
+        const std::uint32_t triangle = RTCHitN_primID(arguments->hit, count, i);
+        if (arguments->valid[i] == 0) {
+            continue;
+        }
+        const auto& cutout =
+            self.materials_[self.surface_.mesh.triangles[triangle].material].cutout;
+        if (along >= 0 ||
+            (cutout && !transport::is_solid_at(self.surface_, *cutout, triangle,
+                                               RTCHitN_u(arguments->hit, count, i),
+                                               RTCHitN_v(arguments->hit, count, i)))) {
             arguments->valid[i] = 0;
         }
     }
 }
 
-}  // namespace
-
-SurfaceCaster::SurfaceCaster(const transport::SurfaceMesh& mesh)
-    : device_(rtcNewDevice(nullptr)) {
+SurfaceCaster::SurfaceCaster(const transport::Surface& surface,
+                             const std::vector<transport::MaterialRecord>& materials)
+    : surface_(surface), materials_(materials), device_(rtcNewDevice(nullptr)) {
+    const transport::SurfaceMesh& mesh = surface.mesh;
     if (!device_) {
         throw BakeError(fmt::format("Embree gives no device (error {}), expected one",
                                     static_cast<int>(rtcGetDeviceError(nullptr))));
@@ -52,7 +61,8 @@ SurfaceCaster::SurfaceCaster(const transport::SurfaceMesh& mesh)
             *corners++ = vertex;
         }
     }
-    rtcSetGeometryIntersectFilterFunction(geometry, &refuse_backs);
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryIntersectFilterFunction(geometry, &SurfaceCaster::refuse_unseen);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(accelerator_.get(), geometry, 0);
     rtcReleaseGeometry(geometry);

@@ -58,7 +58,7 @@ class Viewer {
         : manifest_(transport.manifest()),
           surface_(transport.surface().value()),
           values_(values),
-          caster_(surface_.mesh) {}
+          caster_(surface_, manifest_.mesh->materials) {}
 
     // False where the ray meets nothing.
     bool look(const Imath::V3f& eye, const Imath::V3f& direction, Imath::V3d& radiance) const {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,9 @@ class Receivers {
     // Rows of every receiver of a cluster, 1 … transport::kMaxTerms. Each is stored in a block
     // of its own.
     [[nodiscard]] virtual std::uint32_t terms(std::uint32_t cluster) const = 0;
-    // In which their blocks are stored.
-    [[nodiscard]] virtual transport::BlockBasis block_basis() const = 0;
+    // In which their blocks may be stored, at least one: the bake takes the one that needs the
+    // fewest bytes. Valid as long as the receivers.
+    [[nodiscard]] virtual std::span<const transport::BlockBasis> block_bases() const = 0;
     // Clusters that are baked together, at most: close to each other in the scene.
     [[nodiscard]] virtual std::uint32_t clusters_per_shard() const = 0;
     // None where the slot is no receiver's. Slots in ascending order hold receivers in

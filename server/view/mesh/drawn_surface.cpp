@@ -8,7 +8,7 @@ namespace relume::view {
 DrawnSurface::DrawnSurface(std::shared_ptr<const transport::Surface> surface,
                            std::span<const transport::MaterialRecord> materials,
                            const transport::VertexClusters& clusters)
-    : surface_(std::move(surface)), clusters_(clusters) {
+    : surface_(std::move(surface)), clusters_(clusters), holes_(surface_, materials) {
     textures_.reserve(surface_->textures.size());  // materials point to them
     for (const transport::SurfaceTexture& texture : surface_->textures) {
         textures_.emplace_back(texture);

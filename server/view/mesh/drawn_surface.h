@@ -5,6 +5,7 @@
 #include "protocol/transport/mesh_section.h"
 #include "protocol/transport/surface.h"
 #include "protocol/transport/vertex_clusters.h"
+#include "server/view/mesh/holes.h"
 #include "server/view/mesh/mipped_texture.h"
 
 #include <Imath/ImathVec.h>
@@ -38,6 +39,7 @@ class DrawnSurface {
                  const transport::VertexClusters& clusters);
 
     [[nodiscard]] const transport::SurfaceMesh& mesh() const { return surface_->mesh; }
+    [[nodiscard]] const Holes& holes() const { return holes_; }
     [[nodiscard]] const DrawnMaterial& material(std::uint32_t number) const {
         return materials_[number];
     }
@@ -60,6 +62,7 @@ class DrawnSurface {
   private:
     std::shared_ptr<const transport::Surface> surface_;
     const transport::VertexClusters& clusters_;
+    Holes holes_;
     std::vector<MippedTexture> textures_;
     std::vector<DrawnMaterial> materials_;
     std::vector<std::uint32_t> first_terms_;           // [vertices]

@@ -44,7 +44,7 @@ bool MeshView::look(const Look& look) {
     pinhole_ = pinhole_from_look(look, frame_);
     image_ = {.width = look.width, .height = look.height};
     camera_ = record_from(pinhole_);
-    visible_.look(surface_->mesh(), pinhole_, look.width, look.height);
+    visible_.look(surface_->mesh(), pinhole_, look.width, look.height, &surface_->holes());
     is_closer_ = false;
     images_ = 0;
     kept_.clear();

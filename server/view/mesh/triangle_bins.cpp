@@ -32,7 +32,8 @@ bool may_show(const ProjectedTriangle& triangle, double left, double top) {
 void TriangleBins::fill(const transport::SurfaceMesh& mesh,
                         const PixelSpace& space,
                         std::uint32_t width,
-                        std::uint32_t height) {
+                        std::uint32_t height,
+                        std::span<const std::uint8_t> is_in) {
     width_ = width;
     height_ = height;
     tiles_x_ = (width + kRasterSide - 1) / kRasterSide;
@@ -51,16 +52,31 @@ void TriangleBins::fill(const transport::SurfaceMesh& mesh,
         const std::size_t first = i * kTrianglesPerChunk;
         fill_chunk(
             triangles.subspan(first, std::min(kTrianglesPerChunk, triangles.size() - first)),
-            static_cast<std::uint32_t>(first), chunks_[i]);
+            static_cast<std::uint32_t>(first), is_in, chunks_[i]);
+    });
+}
+
+void TriangleBins::clear() {
+    tiles_x_ = tiles_y_ = 0;
+    chunks_.clear();
+}
+
+bool TriangleBins::has_any(std::uint32_t tile) const {
+    return std::any_of(chunks_.begin(), chunks_.end(), [tile](const Chunk& chunk) {
+        return chunk.begins[tile] < chunk.begins[tile + 1];
     });
 }
 
 void TriangleBins::fill_chunk(std::span<const transport::SurfaceTriangle> triangles,
                               std::uint32_t first,
+                              std::span<const std::uint8_t> is_in,
                               Chunk& chunk) {
     chunk.triangles.clear();
     chunk.entries.clear();
     for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (!is_in.empty() && is_in[triangles[i].material] == 0) {
+            continue;
+        }
         const auto& vertices = triangles[i].vertices;
         auto projected =
             project({corners_[vertices[0]], corners_[vertices[1]], corners_[vertices[2]]},

@@ -18,12 +18,17 @@ namespace relume::view {
 // image to the next. Not thread-safe, but for what is const.
 class TriangleBins {
   public:
-    // Projects all triangles, and says which tiles each may show in. Spread over the caller's
-    // arena; what comes out does not depend on the threads.
+    // Projects all triangles, and says which tiles each may show in. `is_in` says of every
+    // material whether its triangles are among them; empty where all are. Spread over the
+    // caller's arena; what comes out does not depend on the threads.
     void fill(const transport::SurfaceMesh& mesh,
               const PixelSpace& space,
               std::uint32_t width,
-              std::uint32_t height);
+              std::uint32_t height,
+              std::span<const std::uint8_t> is_in = {});
+    // No triangles, of an image without a tile.
+    void clear();
+    [[nodiscard]] bool has_any(std::uint32_t tile) const;
 
     [[nodiscard]] std::uint32_t tiles_x() const { return tiles_x_; }
     [[nodiscard]] std::uint32_t tiles_y() const { return tiles_y_; }
@@ -57,6 +62,7 @@ class TriangleBins {
 
     void fill_chunk(std::span<const transport::SurfaceTriangle> triangles,
                     std::uint32_t first,
+                    std::span<const std::uint8_t> is_in,
                     Chunk& chunk);
     void add_entries(const ProjectedTriangle& triangle, std::uint32_t number, Chunk& chunk);
     void sort_entries(Chunk& chunk) const;

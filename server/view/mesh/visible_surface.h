@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/transport/surface_mesh.h"
+#include "server/view/mesh/holes.h"
 #include "server/view/mesh/pixel_space.h"
 #include "server/view/mesh/raster_tile.h"
 #include "server/view/mesh/triangle_bins.h"
@@ -23,18 +24,21 @@ struct SurfacePoint {
     friend bool operator==(const SurfacePoint&, const SurfacePoint&) = default;
 };
 
-// A triangle shows its front alone. A pixel shows what is nearest in its middle; at rest,
-// pixels in which different things meet show what is nearest in sixteen places. Not
+// A triangle shows its front alone, and holes show what lies behind them. A pixel shows what is
+// nearest in its middle; at rest, pixels in which different things meet show what is nearest in
+// sixteen places. Not
 // thread-safe, but for what is const; memory stays from one look to the next.
 class VisibleSurface {
   public:
     static constexpr std::size_t kSamplesOfEdge = 16;
 
-    // What shows in the middle of every pixel. Spread over the caller's arena.
+    // What shows in the middle of every pixel. `holes` are the mesh's own, or null where it has
+    // none; kept until the next look. Spread over the caller's arena.
     void look(const transport::SurfaceMesh& mesh,
               const Pinhole& pinhole,
               std::uint32_t width,
-              std::uint32_t height);
+              std::uint32_t height,
+              const Holes* holes = nullptr);
     // Looks closer at the pixels in which different things meet.
     void look_at_edges(const transport::SurfaceMesh& mesh);
 
@@ -66,11 +70,14 @@ class VisibleSurface {
 
     template <typename Take>
     void draw_tile(std::uint32_t tile, const SamplePosition& sample, const Take& take) const;
-    void find_edges(const transport::SurfaceMesh& mesh);
+    // Pixels in which a hole begins or ends, whatever shows in their middles.
+    void add_edges_of_holes(const transport::SurfaceMesh& mesh);
 
     std::uint32_t width_ = 0;
     std::uint32_t height_ = 0;
-    TriangleBins bins_;
+    const Holes* holes_ = nullptr;
+    TriangleBins bins_;                         // of materials without holes
+    TriangleBins holed_bins_;                   // of the others
     std::vector<SurfacePoint> points_;          // [height][width]
     std::vector<float> nearness_;               // [height][width]
     std::vector<std::uint32_t> edges_;          // pixels, in their order

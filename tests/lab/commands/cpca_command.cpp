@@ -100,14 +100,15 @@ void print_coded(const CpcaFindings& findings) {
     const std::size_t ways = findings.coded.size() / 2;
     for (std::size_t i = 0; i < findings.coded.size(); ++i) {
         const CodedFigures& figures = findings.coded[i];
-        const CodedFigures& plain = findings.coded[i / ways * ways];
+        const std::size_t first = i / ways * ways;
+        const std::size_t plain = std::min(findings.coded[first].bytes.total(),
+                                           findings.coded[first + 1].bytes.total());
         fmt::print(
             "| {} | {:.2f} %, {:.2f} % | {:.2f} MB | {:.3f} | {:.2f} MB | {:.2f} MB | {}, {} "
             "| {:.2f} %, {:.2f} % | {:.2f} %, {:.2f} % | {:.2f}, {:.2f} | {:.3f}, {:.3f} |\n",
             figures.name, 100 * figures.asked.natural, 100 * figures.asked.sun,
             1e-6 * static_cast<double>(figures.bytes.total()),
-            static_cast<double>(figures.bytes.total()) /
-                static_cast<double>(plain.bytes.total()),
+            static_cast<double>(figures.bytes.total()) / static_cast<double>(plain),
             1e-6 * static_cast<double>(figures.bytes.cells),
             1e-6 * static_cast<double>(figures.bytes.bases), figures.median_components,
             figures.most_components, 100 * figures.expected.natural, 100 * figures.expected.sun,

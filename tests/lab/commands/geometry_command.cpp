@@ -161,18 +161,21 @@ int run(const Options& options) {
         scene::build_builtin_scene(options.surface.scene), scene->transport(), parameters,
         cubemap_of_map(options.environment, scene->face_resolution()), options.points);
     figures["interpolation_error"] = interpolation.relative_l2;
+    figures["interpolation_error_of_exact_corners"] = interpolation.of_exact_corners;
     figures["bake_seconds"] = bake_seconds(*scene);
     figures["bytes"] = scene->transport().total_bytes();
-    const json configuration{{"scene", options.surface.scene},
-                             {"environment", options.environment},
-                             {"side", options.surface.side},
-                             {"threads", options.threads},
-                             {"vertices", manifest.layout.clusters().vertex_count()},
-                             {"clusters", manifest.layout.clusters().clusters().size()},
-                             {"blocks", manifest.block_count()},
-                             {"terms", options.surface.terms},
-                             {"milliseconds", options.milliseconds},
-                             {"points", interpolation.points}};
+    const json configuration{
+        {"scene", options.surface.scene},
+        {"environment", options.environment},
+        {"side", options.surface.side},
+        {"threads", options.threads},
+        {"vertices", manifest.layout.clusters().vertex_count()},
+        {"clusters", manifest.layout.clusters().clusters().size()},
+        {"blocks", manifest.block_count()},
+        {"block_basis", transport::kBlockBasisNames.name(manifest.block_basis)},
+        {"terms", options.surface.terms},
+        {"milliseconds", options.milliseconds},
+        {"points", interpolation.points}};
     if (options.as_json) {
         fmt::print("{}\n",
                    json{{"configuration", configuration}, {"figures", figures}}.dump(2));

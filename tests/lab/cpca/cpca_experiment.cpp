@@ -113,10 +113,9 @@ class Experiment {
 
     CpcaFindings run() {
         const LightErrors asked{.natural = options_.error, .sun = options_.error};
-        code("haar_line", ClusterBasis::haar_line, [&](const CodedRows& coded) {
-            findings_.baked = coded.error(rows_.baked_steps);
-            targets_ = {asked, findings_.baked};
-        });
+        findings_.baked = baked_error();
+        targets_ = {asked, findings_.baked};
+        code("haar_line", ClusterBasis::haar_line, [](const CodedRows&) {});
         code("identity", ClusterBasis::identity, [](const CodedRows&) {});
         code("pca", ClusterBasis::learned, [&](const CodedRows& coded) {
             std::vector<std::size_t> ranks;
@@ -137,6 +136,13 @@ class Experiment {
     }
 
   private:
+    [[nodiscard]] LightErrors baked_error() const {
+        const bool is_line = rows_.baked_basis == transport::BlockBasis::haar_line;
+        const CodedRows coded(
+            rows_, members_of(cluster_of_, findings_.clusters), weights_,
+            {.basis = is_line ? ClusterBasis::haar_line : ClusterBasis::identity});
+        return coded.error(rows_.baked_steps);
+    }
     [[nodiscard]] bool is_asked(const CodedFigures& figures) const {
         return figures.asked.natural == targets_[0].natural &&
                figures.asked.sun == targets_[0].sun;
@@ -221,6 +227,10 @@ class Experiment {
 };
 
 }  // namespace
+
+const CodedFigures& CpcaFindings::plain() const {
+    return coded[1].bytes.total() < coded[0].bytes.total() ? coded[1] : coded[0];
+}
 
 const CodedFigures& CpcaFindings::best_cpca() const {
     return coded[3].bytes.total() < coded[2].bytes.total() ? coded[3] : coded[2];

@@ -61,7 +61,8 @@ struct CpcaFindings {
     std::size_t median_rank = 0;
     SecondStepFigures second_step;  // of reassigned clusters at options.error
 
-    [[nodiscard]] const CodedFigures& plain() const { return coded[0]; }
+    // As relume-bake stores it: the shorter one of haar_line and identity at options.error.
+    [[nodiscard]] const CodedFigures& plain() const;
     // The one of fewer bytes at options.error.
     [[nodiscard]] const CodedFigures& best_cpca() const;
 };

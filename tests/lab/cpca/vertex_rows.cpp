@@ -129,6 +129,7 @@ VertexRows bake_vertex_rows(const scene::Scene& scene,
     for (std::size_t j = 0; j < rows.columns(); ++j) {
         rows.baked_steps.push_back(plan.steps[j * channels] * scales[0]);
     }
+    rows.baked_basis = plan.block_basis;
     bake::TracedReceivers traced(receivers, tracer, parameters);
     const bake::PathPool pool(traced);
     tbb::enumerable_thread_specific<Scratch> scratches;

@@ -5,6 +5,7 @@
 #include "precompute/bake/base/parameters.h"
 #include "precompute/scene/scene.h"
 #include "protocol/basis/cubemap_basis.h"
+#include "protocol/transport/block_basis.h"
 #include "protocol/transport/colour_model.h"
 #include "tests/lab/cpca/vertex_graph.h"
 
@@ -23,8 +24,10 @@ struct VertexRows {
     // A vertex's planes in turn, terms outermost, of N values each. Channels are scaled so that
     // an error weighs alike in all of them.
     std::vector<float> values;
-    // The bake's own step of every coefficient, [N], in these units.
+    // The bake's own step of every coefficient, [N], in these units, and the basis of its
+    // blocks.
     std::vector<float> baked_steps;
+    transport::BlockBasis baked_basis = transport::BlockBasis::haar_line;
 
     // [V], in which they are baked; each of one material.
     std::vector<std::uint32_t> cluster_of;

@@ -13,6 +13,9 @@ namespace relume::lab {
 
 struct InterpolationError {
     double relative_l2 = 0;  // of radiance towards the camera, over the points
+    // The same where corners have rows as fine as those of the points: what interpolation alone
+    // is off by.
+    double of_exact_corners = 0;
     std::size_t points = 0;
 };
 

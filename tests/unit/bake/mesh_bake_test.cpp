@@ -130,6 +130,57 @@ TEST_F(MeshBake, TheSceneOwnCameraSeesWhatAnImageBakeShows) {
     EXPECT_LT(error, 0.04);
 }
 
+// A sheet of a material with holes over the floor, seen from above: its outline is that of the
+// holes, and through them shows the floor.
+TEST_F(MeshBake, HolesAreSeen) {
+    scene::Scene scene = scene::build_builtin_scene("plane");
+    scene.materials[0].base_colour = {0.8F, 0.1F, 0.1F};
+    constexpr std::uint32_t kTexels = 4;
+    std::vector<half> rgba;
+    for (std::uint32_t i = 0; i < kTexels * kTexels; ++i) {
+        const bool is_solid = (i % kTexels + i / kTexels) % 2 == 0;
+        rgba.insert(rgba.end(), {half(1), half(1), half(1), half(is_solid ? 1 : 0)});
+    }
+    scene.textures.emplace_back("holes", kTexels, kTexels, std::move(rgba));
+    scene.materials.push_back({.name = "sheet",
+                               .base_colour = {0.1F, 0.1F, 0.8F},
+                               .alpha_cutoff = 0.5F,
+                               .base_texture = scene::TextureUse(0)});
+    scene::Mesh sheet;
+    sheet.name = "sheet";
+    sheet.material = 1;
+    sheet.positions = {
+        {-0.5F, 0.3F, 0.5F}, {0.5F, 0.3F, 0.5F}, {0.5F, 0.3F, -0.5F}, {-0.5F, 0.3F, -0.5F}};
+    sheet.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.meshes.push_back(std::move(sheet));
+    scene.camera = {.name = "above",
+                    .eye = {0.1F, 2, 0.4F},
+                    .look_at = {0, 0, 0},
+                    .up = {0, 0, -1},
+                    .vertical_fov_degrees = 40};
+    scene::finish_scene(scene);
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.bounces = 0;
+    const auto mesh = baked(scene, parameters, "mesh.relume");
+    ASSERT_TRUE(mesh->manifest().mesh->materials[1].cutout);
+    parameters.receivers = ReceiverKind::pixels;
+    const auto image = baked(scene, parameters, "image.relume");
+    const CubemapLight light = sky_of(8, 0);
+    const DenseImage seen = relight(*mesh, light);
+    const DenseImage truth = relight(*image, light);
+    // What is blue shows the sheet.
+    std::size_t blue = 0;
+    std::size_t differs = 0;
+    for (std::size_t pixel = 0; pixel < truth.rgb[0].size(); ++pixel) {
+        const bool is_sheet = truth.rgb[2][pixel] > truth.rgb[0][pixel];
+        blue += is_sheet ? 1U : 0U;
+        differs += is_sheet != (seen.rgb[2][pixel] > seen.rgb[0][pixel]) ? 1U : 0U;
+    }
+    EXPECT_GT(blue, 50U);
+    EXPECT_LT(differs, blue / 20);
+}
+
 // A glossy floor: its K terms agree with the bake of its own BSDF by what the bake states.
 TEST_F(MeshBake, TermsShowTheBrdfWithinTheErrorThatIsStated) {
     scene::Scene scene = scene::build_builtin_scene("plane");
@@ -203,6 +254,20 @@ TEST_F(MeshBake, IsWholeAndEveryDamagedFileIsRefusedByName) {
         stream.put(before);
     }
     EXPECT_TRUE(find_faults(directory).empty());
+}
+
+TEST_F(MeshBake, BlocksAreStoredInTheBasisOfTheFewestBytes) {
+    BakeParameters parameters = parameters_of_mesh();
+    parameters.bounces = 0;
+    const auto transport = baked(scene::build_builtin_scene("box"), parameters, "box.relume");
+    const transport::Manifest& manifest = transport->manifest();
+    const nlohmann::json& bytes = manifest.measured.at("bytes_of_basis");
+    ASSERT_EQ(bytes.size(), 2U);
+    const std::string chosen(transport::kBlockBasisNames.name(manifest.block_basis));
+    for (const auto& [basis, of_basis] : bytes.items()) {
+        EXPECT_GT(of_basis.get<double>(), 0);
+        EXPECT_LE(bytes.at(chosen), of_basis) << basis;
+    }
 }
 
 TEST_F(MeshBake, RefusesFewerVerticesThanTheSceneHas) {

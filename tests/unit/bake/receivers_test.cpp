@@ -39,8 +39,10 @@ class FloorPoints final : public Receivers {
     [[nodiscard]] std::size_t receiver_count() const override { return kPoints; }
     [[nodiscard]] std::uint32_t cluster_count() const override { return 2; }
     [[nodiscard]] std::uint32_t terms(std::uint32_t /*cluster*/) const override { return 1; }
-    [[nodiscard]] transport::BlockBasis block_basis() const override {
-        return transport::BlockBasis::haar_line;
+    [[nodiscard]] std::span<const transport::BlockBasis> block_bases() const override {
+        static constexpr std::array kBases{transport::BlockBasis::haar_line,
+                                           transport::BlockBasis::identity};
+        return kBases;
     }
     [[nodiscard]] std::uint32_t clusters_per_shard() const override { return 1; }
     // In every other slot.
@@ -310,7 +312,7 @@ TEST_F(ReceiversTest, BlocksHoldTheRowsOfTheirClustersInTheirSlots) {
         }
         StoredRows none;
         const transport::EncodedBlock expected =
-            encode_block(receivers_.block_basis(), rows, quantisation.steps, none);
+            encode_block(quantisation.block_basis, rows, quantisation.steps, none);
         const transport::EncodedBlock& found = shard.blocks[block];
         ASSERT_EQ(found.segment_count(), expected.segment_count());
         std::size_t occupied = 0;

@@ -44,7 +44,9 @@ TEST_P(BlockBasisTest, KeepsInnerProducts) {
     EXPECT_NEAR(product(a, b), expected, 1e-5);
 }
 
-TEST_P(BlockBasisTest, AConstantIsItsFirstCoefficient) {
+class WaveletBlockBasisTest : public BlockBasisTest {};
+
+TEST_P(WaveletBlockBasisTest, AConstantIsItsFirstCoefficient) {
     Values values;
     values.fill(0.25F);
     block_coefficients_from_receivers(GetParam(), values);
@@ -54,12 +56,26 @@ TEST_P(BlockBasisTest, AConstantIsItsFirstCoefficient) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         BlockBasisTest,
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    BlockBasisTest,
+    testing::Values(BlockBasis::haar_tile, BlockBasis::haar_line, BlockBasis::identity),
+    [](const auto& shown) { return std::string(kBlockBasisNames.name(shown.param)); });
+INSTANTIATE_TEST_SUITE_P(Wavelets,
+                         WaveletBlockBasisTest,
                          testing::Values(BlockBasis::haar_tile, BlockBasis::haar_line),
                          [](const auto& shown) {
                              return std::string(kBlockBasisNames.name(shown.param));
                          });
+
+TEST(IdentityBlockBasis, ASlotHoldsItsReceiversValue) {
+    const Values before = noise(3);
+    Values values = before;
+    block_coefficients_from_receivers(BlockBasis::identity, values);
+    EXPECT_EQ(values, before);
+    block_receivers_from_coefficients(BlockBasis::identity, values);
+    EXPECT_EQ(values, before);
+}
 
 TEST(HaarLine, SlotsGoFromTheCoarsestLevelToTheFinest) {
     for (std::uint32_t level = 0; level < 8; ++level) {

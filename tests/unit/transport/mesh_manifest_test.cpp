@@ -61,6 +61,21 @@ TEST(MeshManifest, ComesBackFromItsText) {
     EXPECT_EQ(again.mesh->textures.checksum, 6U);
 }
 
+TEST(MeshManifest, MaterialsMayHaveHoles) {
+    Manifest manifest = sample();
+    manifest.mesh->materials[1].cutout = CutoutRecord{.texture = 2, .cutoff = 0.25F};
+    const Manifest again = manifest_from_text(text_from_manifest(manifest), "m");
+    EXPECT_EQ(again.mesh->materials, manifest.mesh->materials);
+}
+
+TEST(MeshManifest, BlocksMayHoldTheValuesThemselves) {
+    Manifest manifest = sample();
+    manifest.block_basis = BlockBasis::identity;
+    const std::string text = text_from_manifest(manifest);
+    EXPECT_NE(text.find("\"identity\""), std::string::npos);
+    EXPECT_EQ(manifest_from_text(text, "m").block_basis, BlockBasis::identity);
+}
+
 TEST(MeshManifest, NamesWhatIsWrong) {
     struct Wrong {
         const char* place;
@@ -74,6 +89,7 @@ TEST(MeshManifest, NamesWhatIsWrong) {
     };
     const Wrong wrong[] = {
         {"block_basis", [](auto& o) { o["block_basis"] = "haar"; }},
+        {"block_basis", [](auto& o) { o["block_basis"] = "haar_tile"; }},
         {"block_basis", [](auto& o) { o.erase("block_basis"); }},
         {"mesh", [](auto& o) { o.erase("mesh"); }},
         {"files.brdfs", [](auto& o) { o["files"].erase("brdfs"); }},
@@ -94,6 +110,19 @@ TEST(MeshManifest, NamesWhatIsWrong) {
         {"mesh.materials[1].lobes", material({{"name", ""}, {"brdf", 1}, {"lobes", {}}})},
         {"mesh.materials[1].lobes[0].colour",
          material({{"name", ""}, {"brdf", 1}, {"lobes", {{{"colour", {1, -1, 1}}}}}})},
+        {"mesh.materials[1].cutout.texture", material({{"name", ""},
+                                                       {"brdf", 1},
+                                                       {"lobes", {{{"colour", {1, 1, 1}}}}},
+                                                       {"cutout", {{"cutoff", 0.5}}}})},
+        {"mesh.materials[1].cutout.cutoff",
+         material({{"name", ""},
+                   {"brdf", 1},
+                   {"lobes", {{{"colour", {1, 1, 1}}}}},
+                   {"cutout", {{"texture", 0}, {"cutoff", "half"}}}})},
+        {"mesh.materials[1].cutout", material({{"name", ""},
+                                               {"brdf", 1},
+                                               {"lobes", {{{"colour", {1, 1, 1}}}}},
+                                               {"cutout", 0.5}})},
         {"mesh.materials[1].lobes[0].texture",
          material({{"name", ""},
                    {"brdf", 1},

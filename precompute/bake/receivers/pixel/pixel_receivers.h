@@ -8,6 +8,9 @@
 #include "precompute/scene/camera.h"
 #include "protocol/transport/receiver_layout.h"
 
+#include <array>
+#include <span>
+
 namespace relume::bake {
 
 // Paths along a Morton curve, so that any aligned square of pixels has an aligned run of the
@@ -27,8 +30,9 @@ class PixelReceivers final : public Receivers {
     [[nodiscard]] std::size_t receiver_count() const override;
     [[nodiscard]] std::uint32_t cluster_count() const override { return image_.block_count(); }
     [[nodiscard]] std::uint32_t terms(std::uint32_t /*cluster*/) const override { return 1; }
-    [[nodiscard]] transport::BlockBasis block_basis() const override {
-        return transport::BlockBasis::haar_tile;
+    [[nodiscard]] std::span<const transport::BlockBasis> block_bases() const override {
+        static constexpr std::array kBases{transport::BlockBasis::haar_tile};
+        return kBases;
     }
     // Whole tile rows where one fits into a shard, else a part of a row.
     [[nodiscard]] std::uint32_t clusters_per_shard() const override;

@@ -7,6 +7,7 @@
 #include "precompute/scene/scene.h"
 #include "protocol/brdf/factored_brdf.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,8 +32,10 @@ class VertexReceivers final : public Receivers {
     [[nodiscard]] std::size_t receiver_count() const override;
     [[nodiscard]] std::uint32_t cluster_count() const override;
     [[nodiscard]] std::uint32_t terms(std::uint32_t cluster) const override;
-    [[nodiscard]] transport::BlockBasis block_basis() const override {
-        return transport::BlockBasis::haar_line;
+    [[nodiscard]] std::span<const transport::BlockBasis> block_bases() const override {
+        static constexpr std::array kBases{transport::BlockBasis::haar_line,
+                                           transport::BlockBasis::identity};
+        return kBases;
     }
     // Few: while a view moves, a server passes by shards that it does not see.
     [[nodiscard]] std::uint32_t clusters_per_shard() const override { return 4; }

@@ -255,6 +255,20 @@ TEST_F(MeshViewTest, HandsOutTheRadianceOfEveryTermOfEveryVertex) {
     }
 }
 
+TEST_F(MeshViewTest, BlocksMayHoldTheValuesThemselves) {
+    VertexRadiance radiance(clusters_, transport::BlockBasis::identity, tint_);
+    radiance.take(sums_);
+    for (std::uint32_t vertex = 0; vertex < clusters_.vertex_count(); ++vertex) {
+        const transport::VertexPlace place = clusters_.place_of_vertex(vertex);
+        const std::size_t first = place.block * kColours * kBlockSize + place.slot;
+        const std::size_t at = VertexRadiance::kFloatsPerTerm * surface_->first_term(vertex);
+        for (std::size_t c = 0; c < kColours; ++c) {
+            const std::size_t value = first + c * kBlockSize;
+            ASSERT_EQ(radiance.values()[at + c], sums_[value] * tint_[value]);
+        }
+    }
+}
+
 TEST_F(MeshViewTest, NewSumsAreTakenWhenTheyAreSaidToBeNew) {
     MeshView view = view_of(look_from({0.9, 0.8, 0.7}, {0.2, -0.3, 0.1}, 50));
     const std::vector<float> first = image_of(view);

@@ -25,7 +25,10 @@ Imath::V3d ray_through(const Pinhole& pinhole, double x, double y, double side) 
            pinhole.up * ((1 - 2 * y / side) * pinhole.tan_half_height);
 }
 
-Hit nearest_front(const SurfaceMesh& mesh, const Imath::V3d& eye, const Imath::V3d& ray) {
+Hit nearest_front(const SurfaceMesh& mesh,
+                  const Imath::V3d& eye,
+                  const Imath::V3d& ray,
+                  const std::function<bool(const Hit&)>& is_solid) {
     Hit best;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& vertices = mesh.triangles[i].vertices;
@@ -43,8 +46,9 @@ Hit nearest_front(const SurfaceMesh& mesh, const Imath::V3d& eye, const Imath::V
         const double v = ray.dot(q) / determinant;
         const double depth = e2.dot(q) / determinant;
         const double margin = std::min({u, v, 1 - u - v});
-        if (margin >= 0 && depth > 0 && depth < best.depth) {
-            best = {static_cast<std::uint32_t>(i), depth, margin, u, v};
+        const Hit hit{static_cast<std::uint32_t>(i), depth, margin, u, v};
+        if (margin >= 0 && depth > 0 && depth < best.depth && (!is_solid || is_solid(hit))) {
+            best = hit;
         }
     }
     return best;

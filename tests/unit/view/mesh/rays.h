@@ -8,6 +8,7 @@
 #include <Imath/ImathVec.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace relume::view {
@@ -28,10 +29,11 @@ struct Hit {
     double weight_2 = 0;
 };
 
-// Every triangle tried, in double precision [Moller97]; fronts alone.
+// Every triangle tried, in double precision [Moller97]; fronts alone, where they are solid.
 [[nodiscard]] Hit nearest_front(const transport::SurfaceMesh& mesh,
                                 const Imath::V3d& eye,
-                                const Imath::V3d& ray);
+                                const Imath::V3d& ray,
+                                const std::function<bool(const Hit&)>& is_solid = nullptr);
 
 [[nodiscard]] Imath::V3d position_of(const transport::SurfaceMesh& mesh,
                                      const SurfacePoint& point);
