@@ -63,7 +63,9 @@ SeenSurface::SeenSurface(const SeenSurfaceOptions& options)
                                  std::span(block_bits_).subspan(vertex * words_, words_));
     }
     wavelet_seconds_ = watch.seconds();
-    to_surface_ = std::make_unique<bake::SurfaceCaster>(surface_.mesh);
+    drawn_.mesh = surface_.mesh;
+    materials_.resize(scene_.materials.size());
+    to_surface_ = std::make_unique<bake::SurfaceCaster>(drawn_, materials_);
     look();
 }
 

@@ -88,6 +88,9 @@ class SeenSurface {
     std::size_t words_;
     std::uint32_t side_;
     bake::RefinedSurface surface_;
+    // As cameras see it; its materials have no holes.
+    transport::Surface drawn_;
+    std::vector<transport::MaterialRecord> materials_;
     std::unique_ptr<const bake::SurfaceCaster> to_surface_;
     std::vector<std::uint64_t> bits_;
     std::vector<std::uint64_t> block_bits_;
