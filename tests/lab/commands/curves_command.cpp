@@ -50,8 +50,7 @@ std::shared_ptr<const served::Scene> lit_scene_of(const Options& options) {
     test::SceneCache cache(options.cache);
     return cache.baked(fmt::format("lit-{}-{}", options.scene, options.side),
                        {"--builtin", options.scene, "--editable", options.editable, "--size",
-                        fmt::format("{0}x{0}", options.side), "--light-resolution", "32",
-                        "--bounces", "1", "--samples", "16"});
+                        fmt::format("{0}x{0}", options.side)});
 }
 
 json lit_materials_of(const Options& options) {
