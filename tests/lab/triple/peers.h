@@ -6,6 +6,7 @@
 #include "server/engine/kernels/triple_product.h"
 #include "tests/lab/triple/seen_surface.h"
 #include "tests/lab/triple/tabulated_material.h"
+#include "tests/lab/triple/triple_light.h"
 
 #include <array>
 #include <cstdint>
@@ -16,32 +17,6 @@
 #include <vector>
 
 namespace relume::lab {
-
-// Three colours of a light, 6·n² each, in the order of cubemap.h: as texels, and what the ways
-// read.
-class TripleLight {
-  public:
-    TripleLight(std::uint32_t face_resolution, std::array<std::vector<float>, 3> texels);
-
-    [[nodiscard]] std::uint32_t face_resolution() const { return n_; }
-    [[nodiscard]] const engine::LightTable& table() const { return table_; }
-    [[nodiscard]] const std::array<std::vector<float>, 3>& coefficients() const {
-        return coefficients_;
-    }
-    // Of texels in squares (texel_blocks.h), and in the order of cubemap.h.
-    [[nodiscard]] engine::ColourPlanes block_planes() const;
-    [[nodiscard]] engine::ColourPlanes planes() const;
-    // The squares of the largest wavelets of its luminance, weighted by area [Ng03 §4.1].
-    [[nodiscard]] tripling::SquareSet largest(double fraction) const;
-
-  private:
-    std::uint32_t n_;
-    std::array<std::vector<float>, 3> texels_;
-    std::array<std::vector<float>, 3> block_texels_;
-    std::array<std::vector<float>, 3> coefficients_;
-    std::vector<float> luminance_;  // coefficients
-    engine::LightTable table_;
-};
 
 // At the i-th of SeenSurface::seen(). A function has memory of its own: one for each thread.
 using IntegrateAt = std::function<engine::Radiance(std::size_t i)>;

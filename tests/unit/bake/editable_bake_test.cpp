@@ -14,6 +14,7 @@
 #include "protocol/curve/curve_json.h"
 #include "protocol/transport/transport.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/unit/bake/file_bytes.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -31,11 +32,6 @@ namespace relume::bake {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class EditableBake : public testing::Test {
   protected:

@@ -9,6 +9,7 @@
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/transport.h"
 #include "tests/support/scratch_directory.h"
+#include "tests/unit/bake/file_bytes.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -25,11 +26,6 @@ namespace relume::bake {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class VertexFieldBake : public testing::Test {
   protected:
