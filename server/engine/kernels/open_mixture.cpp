@@ -7,6 +7,8 @@
 
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
+// Once for each instruction set, hence after foreach_target.h.
+#include "server/engine/kernels/lane_sums-inl.h"
 
 #include <array>
 #include <bit>
@@ -30,16 +32,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
                                            const ColourPlanes& planes,
                                            std::span<const WeightedTexels> functions) {
-    constexpr std::size_t kSums = 16;
-    const hn::CappedTag<float, kSums> d;
-    constexpr std::size_t kLanes = hn::MaxLanes(d);
-    constexpr std::size_t kVectors = kSums / kLanes;
-    hn::Vec<decltype(d)> partial[3][kVectors];
-    for (auto& colour : partial) {
-        for (auto& vector : colour) {
-            vector = hn::Zero(d);
-        }
-    }
+    const LaneTag d;
+    LaneVectors sums;
+    clear(sums);
     // Functions that have the run at hand.
     std::array<const float*, kMostMixed> values;
     std::array<float, kMostMixed> weights;
@@ -62,9 +57,9 @@ std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
                     ++count;
                 }
             }
-            for (std::size_t first = 0; first < tripling::kRunTexels; first += kSums) {
-                for (std::size_t i = 0; i < kVectors; ++i) {
-                    const std::size_t lane = first + i * kLanes;
+            for (std::size_t first = 0; first < tripling::kRunTexels; first += kLaneSums) {
+                for (std::size_t i = 0; i < kLaneVectors; ++i) {
+                    const std::size_t lane = first + i * kVectorLanes;
                     const std::uint64_t of_vector = bits >> lane;
                     auto mixed = hn::Zero(d);
                     for (std::size_t part = 0; part < count; ++part) {
@@ -76,27 +71,14 @@ std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
                     mixed = hn::IfThenElseZero(hn::LoadMaskBits(d, mask_bytes), mixed);
                     const std::size_t texel = tripling::kRunTexels * run + lane;
                     for (std::size_t colour = 0; colour < 3; ++colour) {
-                        partial[colour][i] = hn::MulAdd(hn::LoadU(d, planes[colour] + texel),
-                                                        mixed, partial[colour][i]);
+                        sums[colour][i] = hn::MulAdd(hn::LoadU(d, planes[colour] + texel),
+                                                     mixed, sums[colour][i]);
                     }
                 }
             }
         }
     }
-    std::array<float, 3> radiance{};
-    for (std::size_t colour = 0; colour < radiance.size(); ++colour) {
-        alignas(64) float lanes[kSums];
-        for (std::size_t i = 0; i < kVectors; ++i) {
-            hn::Store(partial[colour][i], d, lanes + i * kLanes);
-        }
-        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
-            for (std::size_t i = 0; i < half; ++i) {
-                lanes[i] += lanes[i + half];
-            }
-        }
-        radiance[colour] = lanes[0];
-    }
-    return radiance;
+    return added_up(sums);
 }
 
 #endif
@@ -114,8 +96,7 @@ HWY_EXPORT(sum_open_mixture_loop);
 std::array<float, 3> sum_open_mixture_scalar(std::span<const std::uint64_t> open,
                                              const ColourPlanes& planes,
                                              std::span<const WeightedTexels> functions) {
-    constexpr std::size_t kSums = 16;
-    std::array<std::array<float, kSums>, 3> sums{};
+    std::array<std::array<float, kLaneSums>, 3> sums{};
     for (std::size_t texel = 0; texel < 64 * open.size(); ++texel) {
         if ((open[texel / 64] >> texel % 64 & 1U) == 0) {
             continue;
@@ -127,18 +108,13 @@ std::array<float, 3> sum_open_mixture_scalar(std::span<const std::uint64_t> open
             }
         }
         for (std::size_t colour = 0; colour < sums.size(); ++colour) {
-            float& sum = sums[colour][texel % kSums];
+            float& sum = sums[colour][texel % kLaneSums];
             sum = std::fma(planes[colour][texel], mixed, sum);
         }
     }
     std::array<float, 3> radiance{};
     for (std::size_t colour = 0; colour < radiance.size(); ++colour) {
-        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
-            for (std::size_t i = 0; i < half; ++i) {
-                sums[colour][i] += sums[colour][i + half];
-            }
-        }
-        radiance[colour] = sums[colour][0];
+        radiance[colour] = sum_in_halves(sums[colour]);
     }
     return radiance;
 }

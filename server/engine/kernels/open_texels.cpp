@@ -7,7 +7,10 @@
 
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
+// Once for each instruction set, hence after foreach_target.h.
+#include "server/engine/kernels/lane_sums-inl.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -39,24 +42,17 @@ HWY_INLINE void sum_open_of(const std::uint64_t* HWY_RESTRICT open,
                             const ColourPlanes& planes,
                             const float* HWY_RESTRICT factor,
                             float* HWY_RESTRICT sums) {
-    constexpr std::size_t kSums = 16;
-    const hn::CappedTag<float, kSums> d;
-    constexpr std::size_t kLanes = hn::MaxLanes(d);
-    constexpr std::size_t kVectors = kSums / kLanes;
-    hn::Vec<decltype(d)> partial[3][kVectors];
-    for (auto& colour : partial) {
-        for (auto& vector : colour) {
-            vector = hn::Zero(d);
-        }
-    }
+    const LaneTag d;
+    LaneVectors partial;
+    clear(partial);
     for (std::size_t word = 0; word < words; ++word) {
         const std::uint64_t bits = open[word];
         if (bits == 0) {
             continue;
         }
-        for (std::size_t first = 0; first < 64; first += kSums) {
-            for (std::size_t i = 0; i < kVectors; ++i) {
-                const std::size_t lane = first + i * kLanes;
+        for (std::size_t first = 0; first < 64; first += kLaneSums) {
+            for (std::size_t i = 0; i < kLaneVectors; ++i) {
+                const std::size_t lane = first + i * kVectorLanes;
                 const std::uint64_t of_vector = bits >> lane;
                 std::uint8_t mask_bytes[8];
                 std::memcpy(mask_bytes, &of_vector, sizeof(mask_bytes));
@@ -76,18 +72,8 @@ HWY_INLINE void sum_open_of(const std::uint64_t* HWY_RESTRICT open,
             }
         }
     }
-    for (std::size_t colour = 0; colour < 3; ++colour) {
-        alignas(64) float lanes[kSums];
-        for (std::size_t i = 0; i < kVectors; ++i) {
-            hn::StoreU(partial[colour][i], d, lanes + i * kLanes);
-        }
-        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
-            for (std::size_t i = 0; i < half; ++i) {
-                lanes[i] += lanes[i + half];
-            }
-        }
-        sums[colour] = lanes[0];
-    }
+    const std::array<float, 3> radiance = added_up(partial);
+    std::copy(radiance.begin(), radiance.end(), sums);
 }
 
 void sum_open_loop(const std::uint64_t* open,
@@ -117,22 +103,16 @@ template <typename AddOpen>
 std::array<float, 3> sum_one_by_one(std::span<const std::uint64_t> open,
                                     const ColourPlanes& planes,
                                     AddOpen add_open) {
-    constexpr std::size_t kSums = 16;
     std::array<float, 3> radiance{};
     for (std::size_t colour = 0; colour < radiance.size(); ++colour) {
-        std::array<float, kSums> sums{};
+        std::array<float, kLaneSums> sums{};
         for (std::size_t texel = 0; texel < 64 * open.size(); ++texel) {
             if ((open[texel / 64] >> texel % 64 & 1U) != 0) {
-                sums[texel % kSums] =
-                    add_open(sums[texel % kSums], planes[colour][texel], texel);
+                sums[texel % kLaneSums] =
+                    add_open(sums[texel % kLaneSums], planes[colour][texel], texel);
             }
         }
-        for (std::size_t half = kSums / 2; half > 0; half /= 2) {
-            for (std::size_t i = 0; i < half; ++i) {
-                sums[i] += sums[i + half];
-            }
-        }
-        radiance[colour] = sums[0];
+        radiance[colour] = sum_in_halves(sums);
     }
     return radiance;
 }
