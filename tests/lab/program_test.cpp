@@ -202,7 +202,8 @@ TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
     const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
         RELUME_LAB,
         {"geometry", "--scene", "box", "--vertices", "600", "--terms", "1", "--side", "48",
-         "--images", "6", "--points", "60", "--cache", scratch_.path() / "cache", "--json"},
+         "--images", "6", "--points", "60", "--cpca-light-resolution", "4", "--cache",
+         scratch_.path() / "cache", "--json"},
         scratch_.path(), "relume-lab"));
     EXPECT_LE(found.at("configuration").at("vertices").get<int>(), 600);
     const nlohmann::json& figures = found.at("figures");
@@ -212,6 +213,10 @@ TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
     }
     EXPECT_LT(figures.at("interpolation_error").get<double>(), 0.2);
     EXPECT_LT(figures.at("error_5_images_after_rest").get<double>(), 0.02);
+    EXPECT_LE(figures.at("cpca_added_error").get<double>(), 0.011);
+    for (const char* key : {"cpca_bytes_over_plain", "cpca_step2_gain", "seam_ratio"}) {
+        EXPECT_GT(figures.at(key).get<double>(), 0) << key;
+    }
 }
 
 TEST_F(ProgramTest, TripleComparesWaysToIntegrate) {

@@ -4,6 +4,7 @@
 #include "tests/lab/commands/commands.h"
 #include "tests/lab/commands/interruption.h"
 #include "tests/lab/cpca/cpca_experiment.h"
+#include "tests/lab/cpca/cpca_figures.h"
 #include "tests/lab/sequences/environment_source.h"
 
 #include <fmt/format.h>
@@ -37,72 +38,17 @@ struct Options {
     }
 };
 
-nlohmann::json json_of(const LightErrors& errors) {
-    return {{"natural", errors.natural}, {"sun", errors.sun}};
-}
-
-nlohmann::json json_of(const SeamFigures& seams) {
-    return {{"added", seams.added},
-            {"shown", seams.shown},
-            {"border_edges", seams.border_edges},
-            {"inner_edges", seams.inner_edges}};
-}
-
-nlohmann::json json_of(const CodedFigures& figures) {
-    return {{"name", figures.name},
-            {"asked", json_of(figures.asked)},
-            {"expected_error", json_of(figures.expected)},
-            {"measured_error", json_of(figures.measured)},
-            {"bytes", figures.bytes.total()},
-            {"cell_bytes", figures.bytes.cells},
-            {"head_bytes", figures.bytes.heads},
-            {"basis_bytes", figures.bytes.bases},
-            {"median_components", figures.median_components},
-            {"most_components", figures.most_components},
-            {"cell_bytes_of_band", figures.bytes_of_band},
-            {"nonzeros_of_band", figures.nonzeros_of_band},
-            {"seams_natural", json_of(figures.natural_seams)},
-            {"seams_sun", json_of(figures.sun_seams)}};
-}
-
-nlohmann::json json_of(const CpcaFindings& findings) {
-    const CodedFigures& best = findings.best_cpca();
-    nlohmann::json coded = nlohmann::json::array();
-    for (const CodedFigures& figures : findings.coded) {
-        coded.push_back(json_of(figures));
-    }
-    return {{"cpca_bytes_over_plain", static_cast<double>(best.bytes.total()) /
-                                          static_cast<double>(findings.plain().bytes.total())},
-            {"cpca_added_error", std::max(best.expected.natural, best.expected.sun)},
-            {"cpca_step2_gain", findings.second_step.gain()},
-            {"cpca_step2_added_error", findings.second_step.added_error},
-            {"cpca_step2_worst_error", findings.second_step.worst_error},
-            {"seam_ratio", std::max(best.natural_seams.added, best.sun_seams.added)},
-            {"seam_ratio_shown", std::max(best.natural_seams.shown, best.sun_seams.shown)},
-            {"vertices", findings.vertices},
-            {"surface_vertices", findings.surface_vertices},
-            {"clusters", findings.clusters},
-            {"blocks", findings.blocks},
-            {"channels", findings.channels},
-            {"columns", findings.columns},
-            {"baked_error", json_of(findings.baked)},
-            {"median_rank", findings.median_rank},
-            {"reassignment_errors", findings.reassignment_errors},
-            {"coded", std::move(coded)}};
-}
-
 void print_coded(const CpcaFindings& findings) {
     fmt::print(
         "| stored as | asked: natural, sun | bytes | of plain | cells | bases | S: median, "
         "most "
         "| error: natural, sun | under model lights | seams added | seams shown |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|\n");
-    const std::size_t ways = findings.coded.size() / 2;
     for (std::size_t i = 0; i < findings.coded.size(); ++i) {
         const CodedFigures& figures = findings.coded[i];
-        const std::size_t first = i / ways * ways;
-        const std::size_t plain = std::min(findings.coded[first].bytes.total(),
-                                           findings.coded[first + 1].bytes.total());
+        const std::size_t plain =
+            (i < findings.coded.size() / 2 ? findings.plain() : findings.plain_as_baked())
+                .bytes.total();
         fmt::print(
             "| {} | {:.2f} %, {:.2f} % | {:.2f} MB | {:.3f} | {:.2f} MB | {:.2f} MB | {}, {} "
             "| {:.2f} %, {:.2f} % | {:.2f} %, {:.2f} % | {:.2f}, {:.2f} | {:.3f}, {:.3f} |\n",
@@ -140,9 +86,10 @@ void print_bands(const CpcaFindings& findings) {
 void print(const std::string& scene, const CpcaFindings& findings) {
     fmt::print(
         "{}: {} of {} vertices, {} clusters, {} blocks of {} channels, {} columns; 1 % of the "
-        "weighted rows is left by {} components in the median cluster\n\n",
+        "weighted rows is left by {} components in the median cluster; baked in {}\n\n",
         scene, findings.vertices, findings.surface_vertices, findings.clusters, findings.blocks,
-        findings.channels, findings.columns, findings.median_rank);
+        findings.channels, findings.columns, findings.median_rank,
+        transport::kBlockBasisNames.name(findings.baked_basis));
     print_coded(findings);
     print_bands(findings);
     const std::vector<double>& errors = findings.reassignment_errors;
@@ -171,7 +118,7 @@ int run(const Options& options) {
         }
         const CpcaFindings findings =
             run_cpca_experiment(scene::build_builtin_scene(name), cpca);
-        report["scenes"][name] = json_of(findings);
+        report["scenes"][name] = json_from_cpca(findings);
         if (!options.is_json) {
             print(name, findings);
         }

@@ -5,6 +5,8 @@
 #include "protocol/base/text/strict_json.h"
 #include "protocol/base/timing/stopwatch.h"
 #include "tests/lab/commands/commands.h"
+#include "tests/lab/cpca/cpca_experiment.h"
+#include "tests/lab/cpca/cpca_figures.h"
 #include "tests/lab/geometry/drawn_room.h"
 #include "tests/lab/geometry/interpolation_error.h"
 #include "tests/lab/scenes/lab_scenes.h"
@@ -26,6 +28,24 @@ namespace {
 
 using nlohmann::json;
 
+// What published systems of this kind had.
+json literature() {
+    return {{{"source", "Overbeck06T §7.2, §7.3"},
+             {"vertices", 40'029},
+             {"terms", 4},
+             {"clusters", 398},
+             {"bases", 25},
+             {"incremental_bases", 6},
+             {"coefficients_of_clusters", 100},
+             {"coefficients_of_terms", 30}},
+            {{"source", "Sun07 fig. 1"},
+             {"vertices", 39'700},
+             {"bytes", 389'000'000},
+             {"bake_seconds", 44'280},
+             {"images_per_s_light_view_and_brdf", 2.62},
+             {"images_per_s_view_only", 57.09}}};
+}
+
 struct Options {
     LabSurface surface;
     std::string environment = "studio";
@@ -33,6 +53,8 @@ struct Options {
     std::uint32_t images = 120;
     double milliseconds = 8;
     std::size_t points = 3000;
+    std::size_t cpca_runs = 2;
+    std::uint32_t cpca_light_resolution = 16;
     std::string cache = default_scene_cache();
     bool as_json = false;
 };
@@ -121,6 +143,19 @@ double bake_seconds(const served::Scene& scene) {
     return report.at("seconds").at("total").get<double>();
 }
 
+// Of runs of the surface's clusters, as `relume-lab cpca` measures them.
+json cpca_figures_of(const Options& options) {
+    CpcaOptions cpca;
+    cpca.bake = parameters_of(options.surface);
+    cpca.bake.face_resolution = options.cpca_light_resolution;
+    cpca.most_runs = options.cpca_runs;
+    cpca.sequence = load_sequence("quick-turn");
+    cpca.environments.environment =
+        load_environment(options.environment, cpca.bake.face_resolution);
+    return cpca_figures(
+        run_cpca_experiment(scene::build_builtin_scene(options.surface.scene), cpca));
+}
+
 int run(const Options& options) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     options.threads);
@@ -164,6 +199,9 @@ int run(const Options& options) {
     figures["interpolation_error_of_exact_corners"] = interpolation.of_exact_corners;
     figures["bake_seconds"] = bake_seconds(*scene);
     figures["bytes"] = scene->transport().total_bytes();
+    if (options.cpca_runs > 0) {
+        figures.update(cpca_figures_of(options));
+    }
     const json configuration{
         {"scene", options.surface.scene},
         {"environment", options.environment},
@@ -175,10 +213,14 @@ int run(const Options& options) {
         {"block_basis", transport::kBlockBasisNames.name(manifest.block_basis)},
         {"terms", options.surface.terms},
         {"milliseconds", options.milliseconds},
-        {"points", interpolation.points}};
+        {"points", interpolation.points},
+        {"cpca_runs", options.cpca_runs},
+        {"cpca_light_resolution", options.cpca_light_resolution}};
     if (options.as_json) {
-        fmt::print("{}\n",
-                   json{{"configuration", configuration}, {"figures", figures}}.dump(2));
+        fmt::print("{}\n", json{{"configuration", configuration},
+                                {"literature", literature()},
+                                {"figures", figures}}
+                               .dump(2));
         return 0;
     }
     for (const auto& [key, value] : configuration.items()) {
@@ -210,6 +252,12 @@ Command add_geometry_command(CLI::App& program) {
     app->add_option("--budget-ms", options->milliseconds, "of relighting, an image")
         ->capture_default_str();
     app->add_option("--points", options->points, "that get rows of their own")
+        ->capture_default_str();
+    app->add_option("--cpca-runs", options->cpca_runs,
+                    "of sixteen clusters whose clustered PCA is measured")
+        ->capture_default_str();
+    app->add_option("--cpca-light-resolution", options->cpca_light_resolution,
+                    "n of its rows, which are in memory")
         ->capture_default_str();
     app->add_option("--cache", options->cache, "folder of baked scenes")->capture_default_str();
     app->add_flag("--json", options->as_json, "one JSON object");

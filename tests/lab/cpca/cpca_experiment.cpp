@@ -1,6 +1,7 @@
 #include "tests/lab/cpca/cpca_experiment.h"
 
 #include "precompute/bake/blocks/model_signals.h"
+#include "precompute/bake/blocks/step_chooser.h"
 #include "protocol/basis/cubemap_projection.h"
 #include "tests/lab/cpca/reassignment.h"
 #include "tests/lab/cpca/row_sketch.h"
@@ -92,6 +93,14 @@ std::size_t rank_of(const Eigen::VectorXd& energies) {
     return rank;
 }
 
+const CodedFigures& plain_of(const CodedFigures& haar_line, const CodedFigures& identity) {
+    constexpr double kMost = 1 - bake::StepChooser::kWorthwhile;
+    return static_cast<double>(identity.bytes.total()) <
+                   kMost * static_cast<double>(haar_line.bytes.total())
+               ? identity
+               : haar_line;
+}
+
 class Experiment {
   public:
     Experiment(const scene::Scene& scene, const CpcaOptions& options)
@@ -109,6 +118,7 @@ class Experiment {
         }
         findings_.channels = rows_.channels;
         findings_.columns = rows_.columns();
+        findings_.baked_basis = rows_.baked_basis;
     }
 
     CpcaFindings run() {
@@ -229,7 +239,11 @@ class Experiment {
 }  // namespace
 
 const CodedFigures& CpcaFindings::plain() const {
-    return coded[1].bytes.total() < coded[0].bytes.total() ? coded[1] : coded[0];
+    return plain_of(coded[0], coded[1]);
+}
+
+const CodedFigures& CpcaFindings::plain_as_baked() const {
+    return plain_of(coded[coded.size() / 2], coded[coded.size() / 2 + 1]);
 }
 
 const CodedFigures& CpcaFindings::best_cpca() const {

@@ -53,6 +53,7 @@ struct CpcaFindings {
     std::uint32_t channels = 0;
     std::size_t columns = 0;
     LightErrors baked;  // of the bake's own steps
+    transport::BlockBasis baked_basis = transport::BlockBasis::haar_line;
     // At options.error, then at the error of the bake's own steps: haar_line, identity, PCA of
     // the bake's clusters, PCA of reassigned ones.
     std::vector<CodedFigures> coded;
@@ -61,8 +62,11 @@ struct CpcaFindings {
     std::size_t median_rank = 0;
     SecondStepFigures second_step;  // of reassigned clusters at options.error
 
-    // As relume-bake stores it: the shorter one of haar_line and identity at options.error.
+    // As relume-bake stores it, at options.error: haar_line, or identity where it saves
+    // bake::StepChooser::kWorthwhile of the bytes.
     [[nodiscard]] const CodedFigures& plain() const;
+    // The same at the error of the bake's own steps.
+    [[nodiscard]] const CodedFigures& plain_as_baked() const;
     // The one of fewer bytes at options.error.
     [[nodiscard]] const CodedFigures& best_cpca() const;
 };
