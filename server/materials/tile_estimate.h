@@ -74,8 +74,8 @@ class TileEstimate {
                         const DirectionPart& part,
                         ColumnSum& sum) const;
     // A first look, for a material as it is: as few directions as there may be, each for the
-    // mean of the light around it, as wide as their density leaves [Krivanek08]. It is
-    // noiseless where light and surface are smooth, and blurred elsewhere.
+    // mean of the light around it, as wide as their density leaves [Krivanek08]. Light and
+    // surface are blurred in place of noise; where both are smooth that changes little.
     [[nodiscard]] TileChange glance(const ShownMaterial& shown, std::uint32_t tile) const;
 
   private:

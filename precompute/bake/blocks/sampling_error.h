@@ -19,8 +19,8 @@ namespace relume::bake {
 // drawn where the image is likely to be off, each with a known probability p. They are baked
 // once more with another seed (B′), and, where one surface fills the receiver, twice without
 // anything that trades bias for noise (U₁, U₂): means over points, without paths of neighbours
-// or shrinkage. B − B′ is the noise of two bakes, and two independent differences show what
-// they share, free of noise:
+// or shrinkage. B − B′ is the noise of two bakes, and of two independent differences
+// the product's mean is what they share, whatever their noise:
 //
 //     e² = Σ (B − B′)²/2p + max(0, Σ (B − U₁)·(B′ − U₂)/p)
 //
