@@ -220,29 +220,14 @@ TEST_F(ProgramTest, GeometryMeasuresASurfaceUnderAMovingCamera) {
 }
 
 TEST_F(ProgramTest, TripleComparesWaysToIntegrate) {
-    const nlohmann::json found =
-        nlohmann::json::parse(test::run_to_end(RELUME_LAB,
-                                               {"triple",
-                                                "--scene",
-                                                "box",
-                                                "--environment",
-                                                "sky-noon",
-                                                "--vertices",
-                                                "1500",
-                                                "-n",
-                                                "8",
-                                                "--side",
-                                                "24",
-                                                "--material",
-                                                "lambert",
-                                                "--peer-vertices",
-                                                "20",
-                                                "--images",
-                                                "2",
-                                                "--pictures",
-                                                output().string(),
-                                                "--json"},
-                                               scratch_.path(), "relume-lab"));
+    const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
+        RELUME_LAB, {"triple",     "--scene",         "box",     "--environment",
+                     "sky-noon",   "--vertices",      "1500",    "-n",
+                     "8",          "--side",          "24",      "--material",
+                     "lambert",    "--peer-vertices", "20",      "--images",
+                     "2",          "--keep",          "--cache", scratch_.path() / "cache",
+                     "--pictures", output().string(), "--json"},
+        scratch_.path(), "relume-lab"));
     EXPECT_GT(found.at("visibility").at("seen_vertices").get<int>(), 0);
     EXPECT_GT(found.at("visibility").at("bytes_per_vertex").get<double>(), 0);
     const nlohmann::json& material = found.at("materials").at(0);
@@ -257,6 +242,13 @@ TEST_F(ProgramTest, TripleComparesWaysToIntegrate) {
     // All of them: as far as single precision goes.
     EXPECT_LT(material.at("terms").back().at("error").get<double>(), 0.2);
     EXPECT_GT(material.at("moving").at("images_per_s_light_and_view").get<double>(), 0);
+    // What is kept is the product, whichever two factors it is of.
+    const nlohmann::json& kept = material.at("kept");
+    EXPECT_LT(kept.at("product_texels").at("error").get<double>(), 1e-5);
+    EXPECT_LT(kept.at("lit_texels").at("error").get<double>(), 1e-5);
+    EXPECT_LT(kept.at("product_columns").at("error").get<double>(), 0.02);
+    EXPECT_LE(kept.at("followed").back().at("error").get<double>(),
+              kept.at("followed").front().at("error").get<double>());
     EXPECT_EQ(content_of(output() / "triple-lambert.png").substr(1, 3), "PNG");
     EXPECT_NE(content_of(output() / "triple-terms.svg").find("</svg>"), std::string::npos);
 }

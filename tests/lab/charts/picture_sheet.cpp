@@ -86,4 +86,36 @@ void draw_picture_sheet(const std::filesystem::path& stem,
     draw_picture(stem, chart);
 }
 
+void draw_picture_grid(const std::filesystem::path& stem,
+                       const std::string& title,
+                       const std::vector<float>& reference,
+                       const std::vector<Picture>& pictures,
+                       std::size_t columns,
+                       std::uint32_t width) {
+    constexpr std::uint32_t kColumn = 180;
+    constexpr std::uint32_t kCaption = 22;
+    const wire::Display display = display_for(reference);
+    const std::size_t height = reference.size() / 3 / width;
+    const std::size_t rows = (pictures.size() + columns - 1) / columns;
+    const auto row = static_cast<std::uint32_t>(kColumn * height / width) + kCaption;
+    Chart chart{.width = static_cast<std::uint32_t>(columns) * kColumn,
+                .height = static_cast<std::uint32_t>(rows) * row + 2 * kCaption};
+    const double of_caption = static_cast<double>(kCaption) / chart.height;
+    chart.commands = fmt::format(
+        "set multiplot layout {},{} title '{}' margins 0.003,0.997,0.003,{:.4f} "
+        "spacing 0.003,{:.4f}\nunset border\nunset tics\nunset key\nunset colorbox\n"
+        "set size ratio -1\nset xrange [-0.5:{}.5]\nset yrange [-0.5:{}.5]\n",
+        rows, columns, chart_text(title), 1 - 2.4 * of_caption, of_caption, width - 1,
+        height - 1);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        chart.data += pixel_block(fmt::format("image{}", i),
+                                  display_values(pictures[i].rgb, display), width);
+        chart.commands += fmt::format(
+            "set title '{}' offset 0,-0.7\nplot $image{} using 1:2:3:4:5 with rgbimage\n",
+            chart_text(pictures[i].method), i);
+    }
+    chart.commands += "unset multiplot\n";
+    draw_picture(stem, chart);
+}
+
 }  // namespace relume::lab

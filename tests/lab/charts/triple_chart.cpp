@@ -18,6 +18,11 @@ void draw_triple_chart(const std::filesystem::path& stem,
                                       100 * point.error);
         }
         chart.data += "EOD\n";
+        // Through the last point.
+        const TermPoint& last = curves[i].points.back();
+        const TermPoint& first = curves[i].points[curves[i].points.size() / 2];
+        const std::string line = fmt::format("{:.6g}*(x/{}.0)**{:.4g}", last.microseconds,
+                                             last.terms, curves[i].slope);
         for (std::size_t panel = 0; panel < 2; ++panel) {
             plots[panel] += fmt::format(
                 "{}$curve{} using 1:{} with linespoints lw 2 pt {} ps 0.7 lc rgb '{}' title "
@@ -26,17 +31,19 @@ void draw_triple_chart(const std::filesystem::path& stem,
                 chart_text(names[i]));
         }
         plots[0] += fmt::format(
-            ", {:.5g} with lines dt 2 lw 1.5 lc rgb '{}' title '{}, over open texels'",
-            curves[i].microseconds_bits, chart_colour(i + 1), chart_text(names[i]));
+            ", [{}:{}] {} with lines dt 3 lw 1.5 lc rgb '#555555' title 'slope {:.2f}', "
+            "[*:*] {:.5g} with lines dt 2 lw 1.5 lc rgb '{}' title '{}, over open texels'",
+            first.terms, last.terms, line, curves[i].slope, curves[i].microseconds_bits,
+            chart_colour(i + 1), chart_text(names[i]));
     }
     chart.commands =
-        chart_style() +
-        fmt::format(
-            "set multiplot layout 1,2\nset logscale xy\nset xlabel 'terms of light "
-            "and of material'\nset key bottom right\nset ylabel 'µs a vertex'\n{}\n"
-            "set key top right\nset ylabel 'relative L2 error, %'\n{}\n"
-            "unset multiplot\n",
-            plots[0], plots[1]);
+        chart_style() + fmt::format(
+                            "set multiplot layout 1,2\nset logscale xy\nset format y '%g'\nset "
+                            "xlabel 'terms of light "
+                            "and of material'\nset key top left\nset ylabel 'µs a vertex'\n{}\n"
+                            "set key bottom left\nset ylabel 'relative L2 error, %'\n{}\n"
+                            "unset multiplot\n",
+                            plots[0], plots[1]);
     draw_chart(stem, chart);
 }
 

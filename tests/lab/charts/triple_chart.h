@@ -9,8 +9,8 @@
 
 namespace relume::lab {
 
-// STEM.svg and .png: time on the left, error on the right, a curve a material, and the time of
-// the sum over open texels as a line. Throws as draw_chart does.
+// STEM.svg and .png: time on the left, error on the right, a curve a material, with the line
+// of its slope, and the time of the sum over open texels as a line. Throws as draw_chart does.
 void draw_triple_chart(const std::filesystem::path& stem,
                        const std::vector<std::string>& names,
                        const std::vector<TermCurve>& curves);

@@ -31,6 +31,39 @@ std::vector<std::string> arguments(const LabSurface& surface) {
             "0.001"};
 }
 
+bool is_file(const std::string& scene) {
+    return std::filesystem::path(scene).has_extension();
+}
+
+std::vector<std::string> arguments(const LabVisibility& visibility) {
+    std::vector<std::string> words{"--receivers",
+                                   "vertices",
+                                   "--fields",
+                                   "--vertices",
+                                   std::to_string(visibility.vertices),
+                                   "--visibility-resolution",
+                                   std::to_string(visibility.face_resolution),
+                                   "--light-resolution",
+                                   "4",
+                                   "--terms",
+                                   "1",
+                                   "--bounces",
+                                   "0",
+                                   "--target-error",
+                                   "0.000001"};
+    if (is_file(visibility.scene)) {
+        words.insert(words.begin(), std::filesystem::absolute(visibility.scene).string());
+    } else {
+        words.insert(words.begin(), {"--builtin", visibility.scene});
+    }
+    return words;
+}
+
+std::string name_of(const LabVisibility& visibility) {
+    return fmt::format("seen-{}-{}-{}", std::filesystem::path(visibility.scene).stem().string(),
+                       visibility.vertices, visibility.face_resolution);
+}
+
 std::string name_of(const LabSurface& surface) {
     return fmt::format("mesh-{}-{}-{}-{}", surface.scene, surface.vertices, surface.terms,
                        surface.side);
@@ -62,6 +95,10 @@ std::filesystem::path LabScenes::sh_transport(const std::string& name, std::uint
 
 std::shared_ptr<const served::Scene> LabScenes::surface(const LabSurface& surface) {
     return scenes_.baked(name_of(surface), arguments(surface));
+}
+
+std::shared_ptr<const served::Scene> LabScenes::visibility(const LabVisibility& visibility) {
+    return scenes_.baked(name_of(visibility), arguments(visibility));
 }
 
 std::filesystem::path LabScenes::sh_transport(const LabSurface& surface) {

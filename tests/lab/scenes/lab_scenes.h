@@ -20,6 +20,14 @@ struct LabSurface {
     std::uint32_t side = 512;         // of the images that its views begin with, in pixels
 };
 
+// What the vertices of a surface see of the light, for triple products; rows of light are as
+// coarse as may be.
+struct LabVisibility {
+    std::string scene = "table";  // built in, or a file that relume-bake reads
+    std::uint32_t vertices = 80'000;
+    std::uint32_t face_resolution = 64;
+};
+
 // Built-in scenes of relume-bake, baked once into a cache: one bounce, 16 samples, 6×32×32.
 class LabScenes {
   public:
@@ -34,6 +42,9 @@ class LabScenes {
                                                      std::uint32_t side = 128);
 
     [[nodiscard]] std::shared_ptr<const served::Scene> surface(const LabSurface& surface);
+    // Refined as far as there may be vertices.
+    [[nodiscard]] std::shared_ptr<const served::Scene> visibility(
+        const LabVisibility& visibility);
     // The folder of the same surface in spherical harmonics of order 20.
     [[nodiscard]] std::filesystem::path sh_transport(const LabSurface& surface);
 

@@ -3,58 +3,20 @@
 #include "precompute/materials/field_baker.h"
 #include "precompute/materials/model_words.h"
 #include "protocol/base/timing/stopwatch.h"
-#include "protocol/light/light_cubemap.h"
-#include "protocol/light/light_rig.h"
-#include "protocol/transport/visibility_field.h"
 #include "server/triple/triple_session.h"
-#include "tests/lab/sequences/environment_source.h"
+#include "tests/lab/geometry/orbit.h"
+#include "tests/lab/triple/turning_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace relume::lab {
 namespace {
 
-constexpr double kStepDegrees = 1.5;
 constexpr double kBudgetMilliseconds = 8;
-
-double step_radians(std::uint32_t image) {
-    return image * kStepDegrees * std::numbers::pi / 180;
-}
-
-// Around the vertical through what the camera looks at.
-scene::CameraPlacement turned(scene::CameraPlacement camera, double radians) {
-    const Imath::V3f arm = camera.eye - camera.look_at;
-    const auto c = static_cast<float>(std::cos(radians));
-    const auto s = static_cast<float>(std::sin(radians));
-    camera.eye =
-        camera.look_at + Imath::V3f(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
-    return camera;
-}
-
-std::shared_ptr<const triple::LitSurface> lit_surface_of(const SeenSurface& surface) {
-    const bake::RefinedSurface& refined = surface.surface();
-    transport::VisibilityFieldBuilder builder(
-        surface.face_resolution(), static_cast<std::uint32_t>(refined.clusters.size()));
-    for (std::uint32_t i = 0; i < refined.clusters.size(); ++i) {
-        std::vector<std::uint64_t> block;
-        const bake::VertexCluster& cluster = refined.clusters[i];
-        for (std::uint32_t vertex = cluster.first; vertex < cluster.first + cluster.count;
-             ++vertex) {
-            const auto bits = surface.bits(vertex);
-            block.insert(block.end(), bits.begin(), bits.end());
-        }
-        builder.set_block(i, block);
-    }
-    const std::vector<std::byte> bytes = builder.bytes();
-    return std::make_shared<triple::LitSurface>(
-        refined.mesh, std::vector<std::uint32_t>(surface.vertex_count(), 0),
-        transport::VisibilityField(bytes, "visibility.bin"));
-}
 
 // Edits as a room makes them.
 class Mover {
@@ -63,36 +25,30 @@ class Mover {
           triple::TripleSession session,
           const std::string& environment,
           std::uint32_t images)
-        : n_(surface.face_resolution()), session_(std::move(session)) {
-        rig_.environment = load_environment(environment, n_);
+        : session_(std::move(session)), light_(environment, surface.face_resolution()) {
         for (std::uint32_t image = 0; image < images; ++image) {
-            cameras_.push_back(turned(surface.scene().camera, step_radians(image)));
-            seen_.push_back(surface.seen_from(cameras_.back(), surface.side()));
+            const view::Look look = orbited(surface.scene()->beginning(), image * kTurnDegrees);
+            eyes_.push_back(surface.eye_in_frame(look));
+            std::vector<std::uint32_t>& seen = seen_.emplace_back();
+            for (const SeenVertex& vertex : surface.seen_from(look)) {
+                seen.push_back(vertex.vertex);
+            }
         }
         turn_light(0);
         move_camera(0);
     }
 
-    void turn_light(std::uint32_t image) {
-        rig_.rotation.setAxisAngle({0, 1, 0}, static_cast<float>(step_radians(image)));
-        light::evaluate(rig_, n_, cubemap_);
-        const auto planes = std::as_const(cubemap_).planes();
-        session_.set_light({planes[0], planes[1], planes[2]});
-    }
-    void move_camera(std::uint32_t image) {
-        session_.set_view(cameras_[image].eye, seen_[image]);
-    }
+    void turn_light(std::uint32_t image) { session_.set_light(light_.turned(image)); }
+    void move_camera(std::uint32_t image) { session_.set_view(eyes_[image], seen_[image]); }
     triple::TripleSession& session() { return session_; }
     [[nodiscard]] const std::vector<std::uint32_t>& seen(std::uint32_t image) const {
         return seen_[image];
     }
 
   private:
-    std::uint32_t n_;
     triple::TripleSession session_;
-    light::LightRig rig_;
-    light::LightCubemap cubemap_;
-    std::vector<scene::CameraPlacement> cameras_;
+    TurningLight light_;
+    std::vector<Imath::V3f> eyes_;
     std::vector<std::vector<std::uint32_t>> seen_;
 };
 
@@ -149,9 +105,8 @@ MovingFigures move_scene(const SeenSurface& surface,
     const auto material = std::make_shared<triple::TexelMaterial>(field);
     figures.load_seconds = loading.seconds();
     figures.texel_bytes = static_cast<double>(material->byte_count());
-    const auto lit = lit_surface_of(surface);
-    figures.surface_bytes = static_cast<double>(lit->byte_count());
-    triple::TripleSession session(lit);
+    figures.surface_bytes = static_cast<double>(surface.lit()->byte_count());
+    triple::TripleSession session(surface.lit());
     session.set_material(0, material);
     Mover mover(surface, std::move(session), environment, images);
     figures.images_per_s_light_only = exact_images_per_second(
