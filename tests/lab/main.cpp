@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
         lab::add_geometry_command(app),     lab::add_brdf_terms_command(app),
         lab::add_view_terms_command(app),   lab::add_cpca_command(app),
         lab::add_curves_command(app),       lab::add_stability_command(app),
-        lab::add_triple_command(app)};
+        lab::add_triple_command(app),       lab::add_triple_pareto_command(app)};
     return relume::program::run_program(app, argc, argv, [&] {
         for (const lab::Command& command : commands) {
             if (command.app->parsed()) {

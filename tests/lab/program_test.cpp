@@ -253,6 +253,30 @@ TEST_F(ProgramTest, TripleComparesWaysToIntegrate) {
     EXPECT_NE(content_of(output() / "triple-terms.svg").find("</svg>"), std::string::npos);
 }
 
+TEST_F(ProgramTest, TripleParetoComparesWhatMovesAlong) {
+    const nlohmann::json found = nlohmann::json::parse(
+        test::run_to_end(RELUME_LAB,
+                         {"triple-pareto", "--vertices", "400", "-n", "8", "--side", "32",
+                          "--images", "2", "--environment", "sky-noon", "--cache",
+                          scratch_.path() / "cache", "--json", "-o", output().string()},
+                         scratch_.path(), "relume-lab"));
+    ASSERT_EQ(found.at("moving").size(), 3U);
+    for (const auto& [moving, points] : found.at("moving").items()) {
+        double bits = 1;
+        double least = 1;
+        for (const nlohmann::json& point : points) {
+            const double error = point.at("error").get<double>();
+            EXPECT_GT(point.at("milliseconds").get<double>(), 0) << point.dump();
+            least = std::min(least, error);
+            bits = point.at("series") == "triple, bits" ? error : bits;
+        }
+        // What sums over all open texels leaves off nothing but what its table does.
+        EXPECT_LT(bits, 0.1) << moving;
+        EXPECT_EQ(bits, least) << moving;
+    }
+    EXPECT_NE(content_of(output() / "triple-pareto.svg").find("</svg>"), std::string::npos);
+}
+
 TEST_F(ProgramTest, ViewTermsLeavesAChartAndErrorsOfEveryNumberOfTerms) {
     const nlohmann::json found = nlohmann::json::parse(test::run_to_end(
         RELUME_LAB,

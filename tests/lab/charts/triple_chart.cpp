@@ -47,4 +47,42 @@ void draw_triple_chart(const std::filesystem::path& stem,
     draw_chart(stem, chart);
 }
 
+void draw_triple_pareto(const std::filesystem::path& stem, const TriplePareto& pareto) {
+    constexpr std::uint32_t kPanel = 440;
+    Chart chart{.width = kPanel * static_cast<std::uint32_t>(pareto.panels.size()),
+                .height = 560};
+    chart.commands =
+        chart_style() + fmt::format(
+                            "set multiplot layout 1,{}\nset logscale xy\nset format '%g'\n"
+                            "set xlabel 'ms an image'\nset ylabel 'relative L2 error, %'\n"
+                            "set key below maxcols 2 samplen 2\n",
+                            pareto.panels.size());
+    for (std::size_t i = 0; i < pareto.panels.size(); ++i) {
+        const TripleParetoPanel& panel = pareto.panels[i];
+        std::vector<std::string> series;
+        std::vector<std::string> blocks;
+        for (const TripleParetoPoint& point : panel.points) {
+            if (series.empty() || series.back() != point.series) {
+                series.push_back(point.series);
+                blocks.emplace_back();
+            }
+            blocks.back() +=
+                fmt::format("{:.5g} {:.5g}\n", point.milliseconds, 100 * point.error);
+        }
+        std::string plot = "plot ";
+        for (std::size_t s = 0; s < series.size(); ++s) {
+            chart.data += fmt::format("$series{}x{} << EOD\n{}EOD\n", i, s, blocks[s]);
+            plot += fmt::format(
+                "{}$series{}x{} using 1:2 with linespoints lw 1.8 dt {} pt {} ps 0.8 lc rgb "
+                "'{}' title '{}'",
+                s == 0 ? "" : ", ", i, s, chart_dashes(s), chart_point(s), chart_colour(s),
+                chart_text(series[s]));
+        }
+        chart.commands +=
+            fmt::format("set title '{} moving'\n{}\n", chart_text(panel.moving), plot);
+    }
+    chart.commands += "unset multiplot\n";
+    draw_chart(stem, chart);
+}
+
 }  // namespace relume::lab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/lab/triple/triple_experiment.h"
+#include "tests/lab/triple/triple_pareto.h"
 
 #include <filesystem>
 #include <string>
@@ -14,5 +15,9 @@ namespace relume::lab {
 void draw_triple_chart(const std::filesystem::path& stem,
                        const std::vector<std::string>& names,
                        const std::vector<TermCurve>& curves);
+
+// STEM.svg and .png: error against time, a panel for what moves, a curve a series. Throws as
+// draw_chart does.
+void draw_triple_pareto(const std::filesystem::path& stem, const TriplePareto& pareto);
 
 }  // namespace relume::lab

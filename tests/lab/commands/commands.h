@@ -27,5 +27,6 @@ struct Command {
 [[nodiscard]] Command add_cpca_command(CLI::App& program);
 [[nodiscard]] Command add_stability_command(CLI::App& program);
 [[nodiscard]] Command add_triple_command(CLI::App& program);
+[[nodiscard]] Command add_triple_pareto_command(CLI::App& program);
 
 }  // namespace relume::lab

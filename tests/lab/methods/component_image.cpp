@@ -18,11 +18,12 @@ using transport::kColours;
 
 ComponentImageMaker::ComponentImageMaker(std::shared_ptr<const served::Scene> scene,
                                          std::shared_ptr<const ClusteredTransport> clustered,
-                                         std::size_t share)
+                                         std::size_t share,
+                                         std::unique_ptr<ImageMaker> surface)
     : scene_(std::move(scene)),
       clustered_(std::move(clustered)),
       share_(share),
-      view_(scene_->make_view()),
+      surface_(std::move(surface)),
       sums_(scene_->stored_operator().sum_count()) {
     for (const ClusteredTransport::Cluster& cluster : clustered_->clusters) {
         const std::size_t planes = std::size_t{cluster.terms} * kColours;
@@ -33,7 +34,7 @@ ComponentImageMaker::ComponentImageMaker(std::shared_ptr<const served::Scene> sc
 }
 
 bool ComponentImageMaker::look(const view::Look& look) {
-    const bool has_changed = view_->look(look);
+    const bool has_changed = surface_->look(look);
     if (has_changed) {
         weigh_blocks();
     }
@@ -41,7 +42,7 @@ bool ComponentImageMaker::look(const view::Look& look) {
 }
 
 void ComponentImageMaker::weigh_blocks() {
-    const std::vector<float> of_surface = view_->block_weights();
+    const std::vector<float> of_surface = surface_->block_weights();
     const transport::VertexClusters& layout = scene_->transport().manifest().layout.clusters();
     weights_.assign(clustered_->components->manifest().block_count(), 0.0F);
     for (const ClusteredTransport::Cluster& cluster : clustered_->clusters) {
@@ -104,8 +105,8 @@ void ComponentImageMaker::write(std::span<float> rgb) {
             manifest.block_basis,
             std::span<float, kBlockSize>(&sums_[block * kBlockSize], kBlockSize));
     });
-    view_->sums_have_changed();
-    view::write_image(*view_, sums_, rgb);
+    surface_->take(sums_);
+    surface_->write(rgb);
 }
 
 }  // namespace relume::lab

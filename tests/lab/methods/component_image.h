@@ -15,10 +15,12 @@ namespace relume::lab {
 // have changed most [Overbeck06T §7.3].
 class ComponentImageMaker final : public ImageMaker {
   public:
-    // `share` is 4 for a quarter of the components, at least one.
+    // `share` is 4 for a quarter of the components, at least one. `surface` makes images of the
+    // scene's own sums.
     ComponentImageMaker(std::shared_ptr<const served::Scene> scene,
                         std::shared_ptr<const ClusteredTransport> clustered,
-                        std::size_t share);
+                        std::size_t share,
+                        std::unique_ptr<ImageMaker> surface);
 
     bool look(const view::Look& look) override;
     // A cluster counts for as much as its vertices do on average.
@@ -36,7 +38,7 @@ class ComponentImageMaker final : public ImageMaker {
     std::shared_ptr<const served::Scene> scene_;
     std::shared_ptr<const ClusteredTransport> clustered_;
     std::size_t share_;
-    std::unique_ptr<view::View> view_;
+    std::unique_ptr<ImageMaker> surface_;
     std::vector<float> weights_;               // of the blocks of components
     std::vector<SecondStep> steps_;            // of each cluster
     std::vector<std::vector<float>> answers_;  // of each cluster, [S][terms][3]

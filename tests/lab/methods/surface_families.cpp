@@ -56,8 +56,9 @@ Method cpca_method(std::string_view rest) {
                     .scene = scene.haar,
                     .workspace = std::make_shared<const engine::Workspace>(
                         std::make_shared<const engine::StoredOperator>(clustered->components)),
-                    .image =
-                        std::make_unique<ComponentImageMaker>(scene.haar, clustered, kShare)},
+                    .image = std::make_unique<ComponentImageMaker>(
+                        scene.haar, clustered, kShare,
+                        std::make_unique<ViewImageMaker>(*scene.haar))},
                 pbi(terms), terms.budget, scene.haar->columns().count());
         }};
 }

@@ -89,13 +89,22 @@ TripleWay sublinear_way(const SeenSurface& surface,
                         std::size_t fraction,
                         const TripleLight& light,
                         const tripling::SquareSet& light_terms) {
-    return {"sublinear", [&surface, &material, fraction, &light, &light_terms] {
+    return sublinear_way_at(surface, surface.seen(), material, fraction, light, light_terms);
+}
+
+TripleWay sublinear_way_at(const SeenSurface& surface,
+                           std::span<const SeenVertex> all_seen,
+                           const TabulatedMaterial& material,
+                           std::size_t fraction,
+                           const TripleLight& light,
+                           const tripling::SquareSet& light_terms) {
+    return {"sublinear", [&surface, all_seen, &material, fraction, &light, &light_terms] {
                 auto workspace =
                     std::make_shared<engine::TripleWorkspace>(surface.face_resolution());
                 const tripling::WaveletStore& store = material.field(fraction).lobes.front();
-                return [&surface, &material, &store, &light, &light_terms,
+                return [&surface, all_seen, &material, &store, &light, &light_terms,
                         workspace](std::size_t i) {
-                    const SeenVertex& seen = surface.seen()[i];
+                    const SeenVertex& seen = all_seen[i];
                     const tripling::FieldPlace place = place_of(material, seen);
                     std::array<engine::WeightedWavelets, 16> parts;
                     for (std::size_t part = 0; part < place.count; ++part) {

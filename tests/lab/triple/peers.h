@@ -34,6 +34,13 @@ struct TripleWay {
                                       std::size_t fraction,
                                       const TripleLight& light,
                                       const tripling::SquareSet& light_terms);
+// The same of other vertices than the surface's own: i counts those.
+[[nodiscard]] TripleWay sublinear_way_at(const SeenSurface& surface,
+                                         std::span<const SeenVertex> seen,
+                                         const TabulatedMaterial& material,
+                                         std::size_t fraction,
+                                         const TripleLight& light,
+                                         const tripling::SquareSet& light_terms);
 // The same as [Ng04 §5.3] publishes it: hash tables for the visibility and for parent sums,
 // one number at a time.
 [[nodiscard]] TripleWay published_way(const SeenSurface& surface,

@@ -117,7 +117,11 @@ double microseconds_of(std::size_t count, const Integrate& integrate) {
 }  // namespace
 
 std::vector<engine::Radiance> integrate_all(const SeenSurface& surface, const TripleWay& way) {
-    std::vector<engine::Radiance> radiance(surface.seen().size());
+    return integrate_all(surface.seen().size(), way);
+}
+
+std::vector<engine::Radiance> integrate_all(std::size_t count, const TripleWay& way) {
+    std::vector<engine::Radiance> radiance(count);
     tbb::enumerable_thread_specific<IntegrateAt> ways(way.make);
     tbb::parallel_for(std::size_t{0}, radiance.size(),
                       [&](std::size_t i) { radiance[i] = ways.local()(i); });

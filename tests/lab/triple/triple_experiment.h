@@ -24,6 +24,9 @@ inline constexpr std::size_t kPaperLight = 2;
 // Radiances of all seen vertices, with the threads of the calling arena.
 [[nodiscard]] std::vector<engine::Radiance> integrate_all(const SeenSurface& surface,
                                                           const TripleWay& way);
+// Of the first `count` vertices that the way has.
+[[nodiscard]] std::vector<engine::Radiance> integrate_all(std::size_t count,
+                                                          const TripleWay& way);
 // ‖a − truth‖/‖truth‖ over colours and vertices.
 [[nodiscard]] double relative_l2(const std::vector<engine::Radiance>& a,
                                  const std::vector<engine::Radiance>& truth);
