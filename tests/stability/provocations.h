@@ -33,5 +33,10 @@ namespace relume::stability {
 [[nodiscard]] Failure curve_jumps();
 [[nodiscard]] Failure rim_of_pearls();
 [[nodiscard]] Failure narrow_highlights();
+// Of light times visibility times material: in triple/.
+[[nodiscard]] Failure hidden_lamp();
+[[nodiscard]] Failure reflection_seams();
+[[nodiscard]] Failure viewer_below_horizon();
+[[nodiscard]] Failure cubemap_resolutions();
 
 }  // namespace relume::stability
