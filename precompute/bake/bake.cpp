@@ -306,6 +306,11 @@ BakeSummary run_bake(const scene::Scene& scene,
     if (parameters.threads > 0) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, parameters.threads);
     }
+    // What an image's points are is known soon, and said then. A surface is refined first.
+    if (fields.of_vertices && hooks.on_note) {
+        hooks.on_note(
+            most_field_bytes_text(parameters.vertices, fields.resolution_of(parameters)));
+    }
     if (measured.empty()) {
         return Bake(scene, parameters, edits, directory, measured, fields, hooks).run();
     }

@@ -111,6 +111,15 @@ std::string field_bytes_text(std::uint64_t points, std::uint32_t face_resolution
         fmt::arg("n", face_resolution));
 }
 
+std::string most_field_bytes_text(std::uint64_t most_vertices, std::uint32_t face_resolution) {
+    return fmt::format(
+        "visibility of at most {} vertices, 6×{n}×{n} bits each: at most {:.1f} MB, which a "
+        "server of triple products holds as they are; files are compressed",
+        most_vertices,
+        static_cast<double>(uncompressed_bytes(most_vertices, face_resolution)) / 1e6,
+        fmt::arg("n", face_resolution));
+}
+
 void check_field_bytes(std::uint64_t points,
                        std::uint32_t face_resolution,
                        const char* remedies) {

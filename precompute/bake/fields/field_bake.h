@@ -60,6 +60,9 @@ inline constexpr std::uint64_t kMostFieldBytes = std::uint64_t{1} << 35U;
                                                std::uint32_t face_resolution);
 // The same for people, before the bake begins.
 [[nodiscard]] std::string field_bytes_text(std::uint64_t points, std::uint32_t face_resolution);
+// The same of the vertices of a surface before there are any: no more than so many.
+[[nodiscard]] std::string most_field_bytes_text(std::uint64_t most_vertices,
+                                                std::uint32_t face_resolution);
 // Throws BakeError, which names `remedies`, where the points have more than kMostFieldBytes.
 void check_field_bytes(std::uint64_t points,
                        std::uint32_t face_resolution,

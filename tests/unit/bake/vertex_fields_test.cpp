@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,10 @@ class VertexFieldBake : public testing::Test {
 };
 
 TEST_F(VertexFieldBake, HasABlockForEachClusterAndAPointForEachVertex) {
-    std::string note;
-    const auto transport = baked("v.relume", {.of_vertices = true},
-                                 {.on_note = [&](const std::string& said) { note = said; }});
+    std::vector<std::string> notes;
+    const auto transport =
+        baked("v.relume", {.of_vertices = true},
+              {.on_note = [&](const std::string& said) { notes.push_back(said); }});
     EXPECT_TRUE(find_faults(path("v.relume")).empty());
     ASSERT_TRUE(transport->visibility());
     EXPECT_EQ(transport->visibility()->face_resolution(), 8U);
@@ -63,9 +65,10 @@ TEST_F(VertexFieldBake, HasABlockForEachClusterAndAPointForEachVertex) {
     }
     EXPECT_FALSE(transport->manifest().materials);
     EXPECT_FALSE(fs::exists(path("v.relume") / "points.bin"));
-    EXPECT_NE(note.find(std::to_string(clusters.vertex_count()) + " points, 6×8×8"),
+    ASSERT_EQ(notes.size(), 2U);
+    EXPECT_NE(notes[1].find(std::to_string(clusters.vertex_count()) + " points, 6×8×8"),
               std::string::npos)
-        << note;
+        << notes[1];
     const std::string text = text_from_description(describe(path("v.relume")));
     EXPECT_NE(text.find("visibility of"), std::string::npos) << text;
     EXPECT_NE(text.find("% open"), std::string::npos) << text;
@@ -172,6 +175,52 @@ TEST_F(VertexFieldBake, GivesTheSameBytesOnAnyNumberOfThreadsAndResumed) {
     for (const char* file : {"manifest.json", "visibility.bin"}) {
         EXPECT_TRUE(bytes_of(path("one") / file) == bytes_of(path("three") / file)) << file;
     }
+}
+
+// However long it takes to find the vertices.
+TEST_F(VertexFieldBake, StatesItsMemoryBeforeItBegins) {
+    std::vector<std::string> notes;
+    const BakeHooks stop{.on_note = [&](const std::string& said) { notes.push_back(said); },
+                         .should_stop = [] { return true; }};
+    EXPECT_THROW((void)baked("v.relume", {.of_vertices = true, .resolution = 64}, stop),
+                 BakeInterrupted);
+    ASSERT_EQ(notes.size(), 1U);
+    // 600 times 3072 bytes.
+    EXPECT_NE(notes[0].find("at most 600 vertices, 6×64×64 bits each: at most 1.8 MB"),
+              std::string::npos)
+        << notes[0];
+}
+
+// A file may have no normals: triangles have their own then, and every vertex one of them.
+TEST_F(VertexFieldBake, OfASceneWithoutNormalsSeesOverItsTriangles) {
+    for (scene::Mesh& mesh : scene_.meshes) {
+        mesh.normals.clear();
+    }
+    scene::finish_scene(scene_);
+    const auto transport = baked("flat.relume", {.of_vertices = true});
+    const auto& normals = transport->surface()->mesh.normals;
+    ASSERT_EQ(normals.size(), transport->surface()->mesh.vertex_count());
+    ASSERT_EQ(transport->visibility()->point_count(), normals.size());
+    const std::size_t words = transport->visibility()->words_per_point();
+    std::vector<std::uint64_t> bits;
+    std::size_t vertex = 0;
+    std::size_t open = 0;
+    for (std::uint32_t block = 0; block < transport->visibility()->block_count(); ++block) {
+        transport->visibility()->read(block, bits);
+        for (std::size_t first = 0; first < bits.size(); first += words, ++vertex) {
+            EXPECT_NEAR(normals[vertex].length(), 1, 1e-3) << vertex;
+            for (std::size_t texel = 0; texel < basis::texel_count(8); ++texel) {
+                if (transport::is_open(std::span(bits).subspan(first, words), texel)) {
+                    ++open;
+                    // A texel's middle may lie a little below where a part of it is above.
+                    const auto direction =
+                        basis::direction_from_texel(8, basis::texel_from_index(8, texel));
+                    EXPECT_GT(direction.dot(normals[vertex]), -0.2F) << vertex;
+                }
+            }
+        }
+    }
+    EXPECT_GT(open, normals.size());
 }
 
 TEST_F(VertexFieldBake, NamesWhatIsWrong) {
