@@ -1,15 +1,19 @@
 // What the vertices of a surface are given equals an independent path tracer, within the noise
 // of both.
+#include "precompute/bake/fields/point_visibility.h"
 #include "precompute/bake/probes/light_probe.h"
 #include "precompute/bake/receivers/vertex/refinement.h"
 #include "precompute/bake/receivers/vertex/vertex_places.h"
 #include "precompute/bake/receivers/vertex/vertex_receivers.h"
+#include "precompute/bake/rows/jitter_shift.h"
+#include "precompute/bake/rows/light_texels.h"
 #include "precompute/bake/rows/path_tracer.h"
 #include "precompute/bake/rows/row_baker.h"
 #include "precompute/materials/field_baker.h"
 #include "precompute/scene/builtin.h"
 #include "protocol/basis/cubemap.h"
 #include "protocol/transport/hash.h"
+#include "protocol/transport/visibility_field.h"
 #include "protocol/tripling/texel_store.h"
 #include "server/engine/kernels/open_mixture.h"
 #include "tests/laws/bake_estimate.h"
@@ -158,33 +162,8 @@ reference::TracedImage reference_of(const LitSurface& lit,
     return image;
 }
 
-// Whether a random ray through the part of a texel above the surface leaves the scene.
-bool sees_texel(const LitSurface& lit,
-                const bake::ReceiverSurface& point,
-                std::uint32_t n,
-                std::size_t texel,
-                reference::Random& random) {
-    const basis::Texel place = basis::texel_from_index(n, texel);
-    constexpr int kTries = 64;
-    for (int tries = 0; tries < kTries; ++tries) {
-        const auto along = [&](std::uint32_t at) {
-            return static_cast<float>(2 * (at + random.uniform()) / n - 1);
-        };
-        const V3f direction =
-            basis::cube_point_from_face_point(
-                {.face = place.face, .u = along(place.column), .v = along(place.row)})
-                .normalized();
-        if (direction.dot(point.point.geometric_normal) > 0) {
-            const auto origin = static_cast<std::size_t>(
-                random.uniform() * static_cast<double>(point.origins.size()));
-            return !lit.caster.is_occluded(point.origins[origin], direction);
-        }
-    }
-    return false;
-}
-
-// Radiance of vertices as light times visibility times material: a bit a texel, and the field
-// of a Lambert material.
+// Radiance of vertices as light times visibility times material: the bits of a bake with this
+// seed, and the field of a Lambert material.
 std::vector<V3d> radiance_from_bits(const LitSurface& lit,
                                     const std::vector<std::size_t>& looked,
                                     std::uint32_t n,
@@ -192,6 +171,8 @@ std::vector<V3d> radiance_from_bits(const LitSurface& lit,
                                     std::uint64_t seed) {
     const materials::FieldModel lambert = materials::lambert_model();
     const materials::TexelSamples samples(n, 4);
+    const bake::LightTexels texels(n, seed);
+    const bake::PointVisibility visibility(lit.caster, texels);
     std::array<std::vector<float>, 3> planes;
     for (std::size_t c = 0; c < 3; ++c) {
         for (const V3f& texel : light) {
@@ -204,13 +185,12 @@ std::vector<V3d> radiance_from_bits(const LitSurface& lit,
         const bake::ReceiverSurface& point = receiver.surfaces.front();
         const V3f normal = lit.surface.mesh.normals[looked[i]];
         const auto material = materials::lobe_texels(lambert, samples, normal, normal).front();
-        reference::Random random(transport::mix_bits(seed + 1000 * looked[i]));
-        std::vector<std::uint64_t> open((light.size() + 63) / 64, 0);
-        for (std::size_t texel = 0; texel < light.size(); ++texel) {
-            if (material[texel] > 0 && sees_texel(lit, point, n, texel, random)) {
-                open[texel / 64] |= std::uint64_t{1} << texel % 64;
-            }
-        }
+        std::vector<std::uint64_t> open(transport::words_of_visibility(n));
+        bake::PointVisibility::Scratch scratch;
+        visibility.compute({.origins = point.origins,
+                            .geometric_normal = point.point.geometric_normal,
+                            .shift = bake::jitter_shift(receiver.place, point.number, seed)},
+                           open, scratch);
         tripling::TexelStore store(n);
         store.append(material, 0);
         const std::array one{engine::WeightedTexels{.weight = 1, .function = store.view(0)}};
