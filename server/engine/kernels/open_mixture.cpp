@@ -32,12 +32,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
                                            const ColourPlanes& planes,
                                            std::span<const WeightedTexels> functions) {
+    constexpr std::size_t kRunVectors = tripling::kRunTexels / kVectorLanes;
     const LaneTag d;
     LaneVectors sums;
     clear(sums);
-    // Functions that have the run at hand.
-    std::array<const float*, kMostMixed> values;
-    std::array<float, kMostMixed> weights;
     for (std::size_t word = 0; 64 * word < open.size(); ++word) {
         std::uint64_t any = 0;
         for (const WeightedTexels& part : functions) {
@@ -49,31 +47,33 @@ std::array<float, 3> sum_open_mixture_loop(std::span<const std::uint64_t> open,
             if (bits == 0) {
                 continue;
             }
-            std::size_t count = 0;
+            // All of the run at a time, so that no sum waits for the one before.
+            hn::Vec<LaneTag> mixed[kRunVectors];
+            for (auto& vector : mixed) {
+                vector = hn::Zero(d);
+            }
             for (const WeightedTexels& part : functions) {
-                if (const float* of_run = tripling::values_of_run(part.function, run)) {
-                    values[count] = of_run;
-                    weights[count] = part.weight;
-                    ++count;
+                const float* of_run = tripling::values_of_run(part.function, run);
+                if (of_run == nullptr) {
+                    continue;
+                }
+                const auto weight = hn::Set(d, part.weight);
+                for (std::size_t i = 0; i < kRunVectors; ++i) {
+                    mixed[i] =
+                        hn::MulAdd(weight, hn::LoadU(d, of_run + i * kVectorLanes), mixed[i]);
                 }
             }
-            for (std::size_t first = 0; first < tripling::kRunTexels; first += kLaneSums) {
-                for (std::size_t i = 0; i < kLaneVectors; ++i) {
-                    const std::size_t lane = first + i * kVectorLanes;
-                    const std::uint64_t of_vector = bits >> lane;
-                    auto mixed = hn::Zero(d);
-                    for (std::size_t part = 0; part < count; ++part) {
-                        mixed = hn::MulAdd(hn::Set(d, weights[part]),
-                                           hn::LoadU(d, values[part] + lane), mixed);
-                    }
-                    std::uint8_t mask_bytes[8];
-                    std::memcpy(mask_bytes, &of_vector, sizeof(mask_bytes));
-                    mixed = hn::IfThenElseZero(hn::LoadMaskBits(d, mask_bytes), mixed);
-                    const std::size_t texel = tripling::kRunTexels * run + lane;
-                    for (std::size_t colour = 0; colour < 3; ++colour) {
-                        sums[colour][i] = hn::MulAdd(hn::LoadU(d, planes[colour] + texel),
-                                                     mixed, sums[colour][i]);
-                    }
+            for (std::size_t i = 0; i < kRunVectors; ++i) {
+                const std::size_t lane = i * kVectorLanes;
+                const std::uint64_t of_vector = bits >> lane;
+                std::uint8_t mask_bytes[8];
+                std::memcpy(mask_bytes, &of_vector, sizeof(mask_bytes));
+                const auto open_part =
+                    hn::IfThenElseZero(hn::LoadMaskBits(d, mask_bytes), mixed[i]);
+                const std::size_t texel = tripling::kRunTexels * run + lane;
+                for (std::size_t colour = 0; colour < 3; ++colour) {
+                    auto& sum = sums[colour][i % kLaneVectors];
+                    sum = hn::MulAdd(hn::LoadU(d, planes[colour] + texel), open_part, sum);
                 }
             }
         }
