@@ -1,6 +1,7 @@
 #include "client/cli/edit_options.h"
 
 #include "client/cli/client_error.h"
+#include "client/cli/finish_options.h"
 #include "client/cli/option_text.h"
 #include "protocol/base/program/usage.h"
 #include "protocol/base/text/split.h"
@@ -120,6 +121,9 @@ json patch_from_options(const EditOptions& options, const std::string& environme
     }
     if (json materials = materials_from_options(options.materials); !materials.empty()) {
         patch["materials"] = std::move(materials);
+    }
+    if (json finishes = finishes_from_options(options.finishes); !finishes.empty()) {
+        patch["finishes"] = std::move(finishes);
     }
     return wire::merge_patches(base, patch);
 }

@@ -20,8 +20,9 @@ struct EditOptions {
     std::string up;                   // the same, a direction
     std::optional<double> fov_degrees;
     MaterialOptions materials;
-    std::string size;   // "WIDTHxHEIGHT" in pixels
-    std::string patch;  // JSON, or @FILE; applied first
+    std::vector<std::string> finishes;  // "PART=MATERIAL[@NUMBER][:R,G,B …]"
+    std::string size;                   // "WIDTHxHEIGHT" in pixels
+    std::string patch;                  // JSON, or @FILE; applied first
     std::string method;
     std::string priority;
     std::optional<double> budget_ms;

@@ -156,6 +156,13 @@ void add_listing_commands(CLI::App& app) {
         ->callback([environments] {
             list(*environments, "environments", {"name", "kind", "width", "height"});
         });
+    const auto materials = std::make_shared<ListingOptions>();
+    add_listing(app, materials, "materials",
+                "List the materials that parts of the server's scenes may be given.")
+        ->callback([materials] {
+            list(*materials, "materials",
+                 {"name", "face_resolution", "parameter", "steps", "colours"});
+        });
     const auto server = std::make_shared<ListingOptions>();
     add_listing(app, server, "info", "Show a server's health and limits.")->callback([server] {
         info(*server);

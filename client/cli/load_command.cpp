@@ -25,6 +25,7 @@ void test_load(const LoadCommandOptions& options) {
     load.token = options.server.token;
     load.patch = patch_from_text(options.patch);
     require_scene(load.server, load.scene);
+    load.materials = offered_materials(load.server);
     const nlohmann::json result = [&] {
         Progress progress(options.progress);
         if (!progress.is_silent()) {

@@ -1,6 +1,7 @@
 #include "client/cli/load_test.h"
 
 #include "client/cli/curve_drag.h"
+#include "client/cli/finish_drag.h"
 #include "client/cli/room_connection.h"
 #include "client/cli/statistics.h"
 
@@ -15,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace relume::cli {
@@ -168,6 +170,10 @@ class Visitor {
         if (drags_ && !scene.materials.empty()) {
             curve_drag_.emplace(scene.materials, seed_);
         }
+        if (auto materials = materials_for(scene, options_.materials);
+            drags_ && !materials.empty()) {
+            finish_drag_.emplace(scene, std::move(materials), seed_);
+        }
         if (!drags_) {
             arrive();
         }
@@ -200,8 +206,12 @@ class Visitor {
         });
     }
 
-    // Where materials are edited a hand draws over their curves, else it turns the light.
+    // Where curves of materials are edited a hand draws over them, where parts are given
+    // materials it moves all there is, else it turns the light.
     nlohmann::json next_edit() {
+        if (finish_drag_) {
+            return finish_drag_->next();
+        }
         if (curve_drag_) {
             return curve_drag_->next();
         }
@@ -250,6 +260,7 @@ class Visitor {
     bool lasted_ = false;
     double yaw_degrees_ = 0;
     std::optional<CurveDrag> curve_drag_;
+    std::optional<FinishDrag> finish_drag_;
     Clock::time_point next_edit_at_;
     Clock::time_point last_edit_by_;  // set once everybody is there
     RoomConnection connection_;

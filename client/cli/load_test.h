@@ -2,6 +2,7 @@
 #pragma once
 
 #include "client/cli/url.h"
+#include "protocol/wire/offered_material.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace relume::cli {
 
@@ -31,6 +33,9 @@ struct LoadOptions {
     std::size_t threads = 1;
     nlohmann::json patch =
         nlohmann::json::object();  // part of each dragging connection's first edit
+    // That the server offers. Where parts of the scene may be given some, whoever drags gives
+    // them, and moves light and camera as well.
+    std::vector<wire::OfferedMaterial> materials = {};
     // Called some times a second, by one thread at a time.
     std::function<void(const LoadProgress&)> on_progress;
 };

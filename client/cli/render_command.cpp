@@ -151,6 +151,13 @@ void add_render_command(CLI::App& app) {
         ->take_all();
     add_camera_options(*command, options->edits);
     add_material_options(*command, options->edits.materials);
+    command
+        ->add_option(
+            "--finish", options->edits.finishes,
+            "PART=MATERIAL[@NUMBER][:R,G,B for each lobe]: a part of the scene is given "
+            "a material of the server, such as floor=phong@64:1,0.8,0.5; may be given "
+            "several times")
+        ->take_all();
     command->add_option(
         "--patch", options->edits.patch,
         "lighting as a JSON merge patch, or @FILE with one, as the page exports "

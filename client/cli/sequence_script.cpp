@@ -111,6 +111,14 @@ Step material_from(ObjectReader reader) {
     return step;
 }
 
+Step finish_from(ObjectReader reader) {
+    ChangeFinish step{.change = finish_change_from(reader),
+                      .images = images_from(reader),
+                      .ease = ease_from(reader)};
+    reader.refuse_other_keys();
+    return step;
+}
+
 Step rest_from(ObjectReader reader) {
     Rest rest;
     const json& until = reader.require("until");
@@ -151,17 +159,17 @@ Step step_from(const json& value, const std::string& path) {
     take("blend", blend_from);
     take("camera", camera_from);
     take("material", material_from);
+    take("finish", finish_from);
     take("rest", rest_from);
     if (reader.find("patch") != nullptr) {
         found.emplace_back(ApplyPatch{.patch = patch_from(reader, "patch")});
     }
     reader.refuse_other_keys();
     if (found.size() != 1) {
-        throw wire::WireError(
-            wire::ErrorCode::missing_field, path,
-            std::to_string(found.size()) + " kinds of step",
-            "exactly one of rotate, move_light, blend, camera, material, rest, "
-            "patch");
+        throw wire::WireError(wire::ErrorCode::missing_field, path,
+                              std::to_string(found.size()) + " kinds of step",
+                              "exactly one of rotate, move_light, blend, camera, material, "
+                              "finish, rest, patch");
     }
     return std::move(found.front());
 }
@@ -237,6 +245,7 @@ std::uint32_t edit_count(const Step& step) {
         std::uint32_t operator()(const BlendOver& blend) const { return blend.images; }
         std::uint32_t operator()(const MoveCamera& move) const { return move.images; }
         std::uint32_t operator()(const ChangeMaterial& step) const { return step.images; }
+        std::uint32_t operator()(const ChangeFinish& step) const { return step.images; }
         std::uint32_t operator()(const ApplyPatch&) const { return 1; }
         std::uint32_t operator()(const Rest&) const { return 0; }
     };
@@ -265,6 +274,9 @@ json patch_of(const Step& step, std::uint32_t index) {
     }
     if (const auto* material = std::get_if<ChangeMaterial>(&step)) {
         return material->change.patch_at(way_at(index, material->images, material->ease));
+    }
+    if (const auto* finish = std::get_if<ChangeFinish>(&step)) {
+        return finish->change.patch_at(way_at(index, finish->images, finish->ease));
     }
     if (const auto* apply = std::get_if<ApplyPatch>(&step)) {
         return apply->patch;

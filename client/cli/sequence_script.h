@@ -2,6 +2,7 @@
 #pragma once
 
 #include "client/cli/camera_path.h"
+#include "client/cli/finish_change.h"
 #include "client/cli/material_change.h"
 
 #include <Imath/ImathVec.h>
@@ -59,6 +60,11 @@ struct ChangeMaterial {
     std::uint32_t images = 1;
     Ease ease = Ease::linear;
 };
+struct ChangeFinish {
+    FinishChange change;
+    std::uint32_t images = 1;
+    Ease ease = Ease::linear;
+};
 // One edit.
 struct ApplyPatch {
     nlohmann::json patch;
@@ -68,8 +74,14 @@ struct Rest {
     std::optional<double> seconds;  // none: until exact
     double timeout_seconds = 300;   // how long to wait for exact
 };
-using Step =
-    std::variant<Rotate, MoveLight, BlendOver, MoveCamera, ChangeMaterial, ApplyPatch, Rest>;
+using Step = std::variant<Rotate,
+                          MoveLight,
+                          BlendOver,
+                          MoveCamera,
+                          ChangeMaterial,
+                          ChangeFinish,
+                          ApplyPatch,
+                          Rest>;
 
 struct SequenceScript {
     std::string scene;                                // may be empty

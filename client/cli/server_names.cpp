@@ -48,6 +48,19 @@ std::vector<std::string> materials_of(const Url& server, const std::string& scen
     return names;
 }
 
+std::vector<wire::OfferedMaterial> offered_materials(const Url& server) {
+    const std::string target = "/api/materials";
+    const HttpAnswer answer = http_get(server, target);
+    std::vector<wire::OfferedMaterial> materials;
+    if (answer.status == 404) {
+        return materials;
+    }
+    for (const auto& entry : json_from_answer(answer, "GET " + target).at("materials")) {
+        materials.push_back(wire::offered_material_from_json(entry, ""));
+    }
+    return materials;
+}
+
 void require_scene(const Url& server, const std::string& scene) {
     const std::vector<std::string> known = scenes_of(server);
     if (std::find(known.begin(), known.end(), scene) == known.end()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "client/cli/url.h"
+#include "protocol/wire/offered_material.h"
 
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace relume::cli {
 // no such scene.
 [[nodiscard]] std::vector<std::string> materials_of(const Url& server,
                                                     const std::string& scene);
+
+// What parts of scenes may be given; none where the server is too old to have such.
+[[nodiscard]] std::vector<wire::OfferedMaterial> offered_materials(const Url& server);
 
 // Throws ClientError, naming the scenes that resemble it, unless the server has the scene.
 void require_scene(const Url& server, const std::string& scene);

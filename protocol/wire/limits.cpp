@@ -13,12 +13,13 @@ namespace {
 
 using Field = std::pair<std::string_view, std::uint64_t Limits::*>;
 
-constexpr std::array<Field, 12> kFields{{
+constexpr std::array<Field, 13> kFields{{
     {"message_bytes", &Limits::message_bytes},
     {"messages_per_second", &Limits::messages_per_second},
     {"message_burst", &Limits::message_burst},
     {"lights_per_room", &Limits::lights_per_room},
     {"materials_per_room", &Limits::materials_per_room},
+    {"finishes_per_room", &Limits::finishes_per_room},
     {"clients_per_room", &Limits::clients_per_room},
     {"rooms", &Limits::rooms},
     {"images_in_flight", &Limits::images_in_flight},

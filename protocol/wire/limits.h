@@ -14,6 +14,7 @@ struct Limits {
     std::uint64_t message_burst = 512;
     std::uint64_t lights_per_room = 64;
     std::uint64_t materials_per_room = 16;
+    std::uint64_t finishes_per_room = 64;
     std::uint64_t clients_per_room = 64;
     std::uint64_t rooms = 64;
     std::uint64_t images_in_flight = 2;  // per client, not yet acknowledged

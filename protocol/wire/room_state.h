@@ -12,6 +12,7 @@
 #include "protocol/wire/sections/camera.h"
 #include "protocol/wire/sections/display.h"
 #include "protocol/wire/sections/environment.h"
+#include "protocol/wire/sections/finishes.h"
 #include "protocol/wire/sections/image_size.h"
 #include "protocol/wire/sections/materials.h"
 #include "protocol/wire/sections/rotation.h"
@@ -27,6 +28,7 @@ struct RoomState {
     Rotation rotation;
     AreaLights lights;
     MaterialEdits materials;
+    Finishes finishes;
     Background background;
     Camera camera;
     ImageSize image;

@@ -39,6 +39,29 @@ void read_text(ObjectReader& reader, const char* key, std::string& value) {
     }
 }
 
+// Calls take(element, its pointer) for each of an array, where there is one.
+template <typename Take>
+void read_each(ObjectReader& reader, const char* key, const Take& take) {
+    const json* const values = reader.find(key);
+    if (values == nullptr) {
+        return;
+    }
+    const std::string path = reader.path_to(key);
+    if (!values->is_array()) {
+        throw WireError(ErrorCode::wrong_type, path, quote(*values),
+                        std::string("an array of ") + key);
+    }
+    for (std::size_t i = 0; i < values->size(); ++i) {
+        take((*values)[i], pointer_step(path, std::to_string(i)));
+    }
+}
+
+ScenePart part_from_json(const json& object, const std::string& path) {
+    ObjectReader reader(object, path);
+    return {.id = name_from_json(reader.require("id"), reader.path_to("id")),
+            .name = string_from_json(reader.require("name"), reader.path_to("name"))};
+}
+
 Camera camera_from_json(const json& object, const std::string& path) {
     Camera camera;
     ObjectReader reader(object, path);
@@ -87,6 +110,12 @@ json to_json(const SceneSummary& scene) {
     for (const EditableMaterial& material : scene.materials) {
         object["materials"].push_back(to_json(material));
     }
+    if (scene.visibility_resolution) {
+        object["visibility_resolution"] = *scene.visibility_resolution;
+    }
+    for (const ScenePart& part : scene.parts) {
+        object["parts"].push_back({{"id", part.id}, {"name", part.name}});
+    }
     return object;
 }
 
@@ -101,6 +130,8 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
                        .camera = {},
                        .bounds = {},
                        .materials = {},
+                       .visibility_resolution = {},
+                       .parts = {},
                        .edits = {}};
     read_text(reader, "kind", scene.kind);
     read_text(reader, "basis", scene.basis);
@@ -123,16 +154,15 @@ SceneSummary scene_summary_from_json(const json& object, const std::string& path
     if (const json* edits = reader.find("edits")) {
         scene.edits = strings_from_json(*edits, reader.path_to("edits"));
     }
-    if (const json* materials = reader.find("materials")) {
-        if (!materials->is_array()) {
-            throw WireError(ErrorCode::wrong_type, reader.path_to("materials"),
-                            quote(*materials), "an array of materials");
-        }
-        for (std::size_t i = 0; i < materials->size(); ++i) {
-            scene.materials.push_back(editable_material_from_json(
-                (*materials)[i], pointer_step(reader.path_to("materials"), std::to_string(i))));
-        }
+    read_each(reader, "materials", [&](const json& material, const std::string& at) {
+        scene.materials.push_back(editable_material_from_json(material, at));
+    });
+    if (reader.find("visibility_resolution") != nullptr) {
+        scene.visibility_resolution = count_from(reader, "visibility_resolution");
     }
+    read_each(reader, "parts", [&](const json& part, const std::string& at) {
+        scene.parts.push_back(part_from_json(part, at));
+    });
     return scene;
 }
 

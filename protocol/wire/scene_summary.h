@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/wire/editable_material.h"
+#include "protocol/wire/scene_part.h"
 #include "protocol/wire/sections/camera.h"
 
 #include <Imath/ImathVec.h>
@@ -39,6 +40,10 @@ struct SceneSummary {
     std::optional<Camera> camera = std::nullopt;  // where its rooms begin
     std::optional<SceneBounds> bounds = std::nullopt;  // where the camera can move
     std::vector<EditableMaterial> materials = {};      // of kind `curves`
+    // Of a scene whose vertices know what they see of the light: the n of what they see, and the
+    // parts that may be given materials of that n.
+    std::optional<std::uint32_t> visibility_resolution = std::nullopt;
+    std::vector<ScenePart> parts = {};
     std::vector<std::string> edits = {};               // the sections of state that take edits
 
     friend bool operator==(const SceneSummary&, const SceneSummary&) = default;

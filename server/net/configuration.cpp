@@ -95,9 +95,13 @@ void add_places(OptionSet& options, Configuration& c) {
         ->check(CLI::ExistingDirectory);
     options.add_milliseconds(
         "scenes-interval-ms", c.scenes_interval,
-        "Between two looks for scenes and environments that came, changed or "
+        "Between two looks for scenes, environments and materials that came, changed or "
         "went; 0 looks again on SIGHUP alone");
     options.add("environments", c.environments, "Folder of .hdr and .exr files")
+        ->check(CLI::ExistingDirectory);
+    options
+        .add("materials", c.materials,
+             "Folder of .material files that parts of scenes may be given")
         ->check(CLI::ExistingDirectory);
     options.add_choice(
         "centre", c.centre,
@@ -187,6 +191,8 @@ void add_limits(OptionSet& options, Configuration& c) {
                       "All uploaded environments, decoded", 0, std::uint64_t{1} << 40);
     options.add_count("environment-cache-bytes", c.environment_bounds.cache_bytes,
                       "Decoded environments kept though unused", 0, std::uint64_t{1} << 40);
+    options.add_count("material-cache-bytes", c.material_cache_bytes,
+                      "Materials in texels kept though unused", 0, std::uint64_t{1} << 40);
 }
 
 void add_connections(OptionSet& options, Configuration& c) {

@@ -20,6 +20,7 @@ struct Configuration {
     std::filesystem::path scenes = "scenes";
     std::chrono::milliseconds scenes_interval{1000};  // between two looks at their folder
     std::filesystem::path environments;               // empty: the procedural ones alone
+    std::filesystem::path materials;                  // empty: none
     light::MapCentre centre = light::MapCentre::negative_z;  // of the maps in that folder
     std::filesystem::path web_root;                          // empty: no page
     std::filesystem::path decoder;  // relume-decode; empty: beside the running program
@@ -37,6 +38,7 @@ struct Configuration {
     wire::Limits limits;
     ConnectionOptions connection;
     EnvironmentBounds environment_bounds;
+    std::size_t material_cache_bytes = std::size_t{1} << 30;  // in texels, though unused
     RoomsOptions rooms;
 };
 

@@ -68,6 +68,7 @@ struct Server::Parts {
     explicit Parts(const Configuration& c)
         : configuration(c),
           environments(c.environment_bounds),
+          materials(c.material_cache_bytes),
           environment_folder(folder_of(environments, c)),
           files(files_from(c.web_root)),
           access(
@@ -79,9 +80,12 @@ struct Server::Parts {
           keep_running(io.get_executor()),
           workers(c.workers, {.edits = 1, .refinements = engine::kMaxBatchMembers}),
           encoders(c.workers, {}),
-          rooms(std::make_shared<Rooms>(
-              scenes, environments, RoomThreads{workers, encoders}, metrics, c.rooms)),
-          routes(scenes, environments, files, access, readiness, metrics),
+          rooms(std::make_shared<Rooms>(scenes,
+                                        Libraries{environments, materials},
+                                        RoomThreads{workers, encoders},
+                                        metrics,
+                                        c.rooms)),
+          routes(scenes, Libraries{environments, materials}, files, access, readiness, metrics),
           uploads(environments, access, upload_options_from(c)),
           slow_requests(kPreviewThreads + c.connection.concurrent_uploads),
           services{routes,
@@ -104,6 +108,7 @@ struct Server::Parts {
     Readiness readiness;
     SceneLibrary scenes;
     EnvironmentLibrary environments;
+    MaterialLibrary materials;
     std::optional<EnvironmentFolder> environment_folder;
     StaticFiles files;
     Access access;
@@ -140,6 +145,9 @@ void Server::Parts::look(Patience patience, const std::stop_token& stop) {
         if (environment_folder && readiness.phase() != Readiness::Phase::starting) {
             environment_folder->refresh(patience);
         }
+        if (!configuration.materials.empty()) {
+            materials.refresh(configuration.materials, patience);
+        }
         folders_are_readable = true;
     } catch (const std::exception& failure) {
         if (std::exchange(folders_are_readable, false)) {
@@ -173,7 +181,8 @@ void Server::Parts::scenes_are_open() {
     } catch (const std::runtime_error& failure) {
         spdlog::error("uploads_fail reason={:?}", failure.what());
     }
-    spdlog::info("ready scenes={} environments={}", count, environments.list().size());
+    spdlog::info("ready scenes={} environments={} materials={}", count,
+                 environments.list().size(), materials.list().size());
     readiness.set_ready();
 }
 
@@ -283,6 +292,9 @@ void check_configuration(const Configuration& configuration) {
     }
     static_cast<void>(files_from(configuration.web_root));
     check_decoder(configuration.decoder);
+    if (!configuration.materials.empty()) {
+        MaterialLibrary(configuration.material_cache_bytes).refresh(configuration.materials);
+    }
     SceneLibrary scenes;
     scenes.refresh(configuration.scenes);
     if (scenes.list().empty()) {

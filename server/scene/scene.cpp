@@ -7,6 +7,18 @@
 #include <utility>
 
 namespace relume::served {
+namespace {
+
+std::vector<std::uint32_t> materials_of_vertices(const transport::VertexClusters& clusters) {
+    std::vector<std::uint32_t> materials;
+    materials.reserve(clusters.vertex_count());
+    for (const transport::Cluster& cluster : clusters.clusters()) {
+        materials.insert(materials.end(), cluster.vertices, cluster.material);
+    }
+    return materials;
+}
+
+}  // namespace
 
 Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     : transport_(std::move(transport)),
@@ -27,6 +39,12 @@ Scene::Scene(std::shared_ptr<const transport::Transport> transport)
     surface_ = std::make_shared<const view::DrawnSurface>(
         std::shared_ptr<const transport::Surface>(transport_, &surface),
         manifest.mesh->materials, manifest.layout.clusters());
+    if (transport_->visibility()) {
+        lit_surface_ = std::make_shared<const triple::LitSurface>(
+            surface.mesh, materials_of_vertices(manifest.layout.clusters()),
+            *transport_->visibility());
+        parts_ = parts_of(manifest.mesh->materials);
+    }
     bounds_ = bounds_of(surface.mesh, manifest.mesh->frame);
     beginning_ = beginning_of_mesh(manifest, surface.mesh, *bounds_);
 }
@@ -39,7 +57,7 @@ std::span<const transport::CurveRecord> Scene::curves() const {
     return section ? section->curves : std::span<const transport::CurveRecord>();
 }
 
-std::unique_ptr<view::View> Scene::make_view() const {
+std::unique_ptr<view::View> Scene::make_view(const view::GivenRadiance* given) const {
     if (!surface_) {
         return std::make_unique<view::ImageView>(transport_);
     }
@@ -48,7 +66,7 @@ std::unique_ptr<view::View> Scene::make_view() const {
         surface_,
         view::VertexRadiance(manifest.layout.clusters(), manifest.block_basis,
                              transport_->tint()),
-        manifest.mesh->frame, beginning_);
+        manifest.mesh->frame, beginning_, given);
 }
 
 void Scene::write_image(std::span<const float> sums, std::span<float> rgb) const {
@@ -57,7 +75,8 @@ void Scene::write_image(std::span<const float> sums, std::span<float> rgb) const
 
 std::uint64_t Scene::bytes() const {
     return operator_->bytes() + (surface_ ? surface_->bytes() : 0) +
-           (editable_points_ ? editable_points_->bytes() : 0);
+           (editable_points_ ? editable_points_->bytes() : 0) +
+           (lit_surface_ ? lit_surface_->byte_count() : 0);
 }
 
 }  // namespace relume::served

@@ -7,15 +7,19 @@
 #include "server/engine/workspace.h"
 #include "server/materials/editable_points.h"
 #include "server/scene/scene_bounds.h"
+#include "server/scene/scene_part.h"
+#include "server/triple/lit_surface.h"
 #include "server/view/view.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace relume::view {
 class DrawnSurface;
+class GivenRadiance;
 }
 
 namespace relume::served {
@@ -47,6 +51,12 @@ class Scene {
         const {
         return editable_points_;
     }
+    // Of a mesh whose vertices know what they see of the light, so that its parts may be given
+    // other materials; else null. Parts are the materials of the surface, in their order.
+    [[nodiscard]] const std::shared_ptr<const triple::LitSurface>& lit_surface() const {
+        return lit_surface_;
+    }
+    [[nodiscard]] std::span<const ScenePart> parts() const { return parts_; }
     [[nodiscard]] const engine::StoredOperator& stored_operator() const { return *operator_; }
     [[nodiscard]] const engine::ColumnTable& columns() const { return operator_->columns(); }
     // What sessions over the scene are made with.
@@ -60,7 +70,10 @@ class Scene {
     // Where the view can move: all that there is to see.
     [[nodiscard]] const std::optional<SceneBounds>& bounds() const { return bounds_; }
     // A view of one's own, as it begins.
-    [[nodiscard]] std::unique_ptr<view::View> make_view() const;
+    // Where the scene has a lit surface, `given` may be the radiance of some of its parts; it
+    // outlives the view.
+    [[nodiscard]] std::unique_ptr<view::View> make_view(
+        const view::GivenRadiance* given = nullptr) const;
     // The size of the images that a view begins with.
     [[nodiscard]] transport::TileGrid image() const {
         return {.width = beginning_.width, .height = beginning_.height};
@@ -76,6 +89,8 @@ class Scene {
     std::shared_ptr<const engine::StoredOperator> operator_;
     std::shared_ptr<const engine::Workspace> workspace_;
     std::shared_ptr<const view::DrawnSurface> surface_;  // of a mesh
+    std::shared_ptr<const triple::LitSurface> lit_surface_;
+    std::vector<ScenePart> parts_;
     std::shared_ptr<const materials::EditablePoints> editable_points_;
     std::optional<SceneBounds> bounds_;
     view::Look beginning_;

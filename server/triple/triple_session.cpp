@@ -40,6 +40,7 @@ double squared_distance(const Radiance& a, const Radiance& b) {
 TripleSession::TripleSession(std::shared_ptr<const LitSurface> surface)
     : surface_(std::move(surface)),
       materials_(surface_->material_count()),
+      weights_(surface_->vertex_count(), 1.0F),
       is_stale_(surface_->vertex_count(), true),
       radiance_(surface_->vertex_count(), Radiance{}) {
     const std::vector<float> black(basis::texel_count(surface_->face_resolution()), 0.0F);
@@ -58,33 +59,33 @@ void TripleSession::set_light(const std::array<std::span<const float>, 3>& texel
     make_stale([](std::size_t /*vertex*/) { return true; });
 }
 
-void TripleSession::set_material(std::uint32_t material,
-                                 std::shared_ptr<const TexelMaterial> field,
-                                 std::optional<std::vector<Imath::V3f>> colours) {
+void TripleSession::set_material(std::uint32_t material, Finish finish) {
     if (material >= materials_.size()) {
         throw std::invalid_argument("material " + std::to_string(material) +
                                     ", expected one below " +
                                     std::to_string(materials_.size()));
     }
-    if (!field || field->face_resolution() != surface_->face_resolution()) {
-        throw std::invalid_argument(
-            "a material field of face resolution " +
-            std::to_string(field ? field->face_resolution() : 0) + ", expected " +
-            std::to_string(surface_->face_resolution()) + ", as the visibility has");
+    if (finish.material &&
+        finish.material->face_resolution() != surface_->face_resolution()) {
+        throw std::invalid_argument("a material field of face resolution " +
+                                    std::to_string(finish.material->face_resolution()) +
+                                    ", expected " +
+                                    std::to_string(surface_->face_resolution()) +
+                                    ", as the visibility has");
     }
-    std::vector<Imath::V3f> of_lobes = colours ? std::move(*colours) : field->colours();
-    if (of_lobes.size() != field->lobe_count()) {
-        throw std::invalid_argument(std::to_string(of_lobes.size()) + " colours, expected " +
-                                    std::to_string(field->lobe_count()) +
-                                    ", one a lobe of the material");
-    }
-    materials_[material] = {.field = std::move(field), .colours = std::move(of_lobes)};
+    materials_[material] = std::move(finish);
     make_stale([&](std::size_t vertex) { return surface_->material(vertex) == material; });
 }
 
 // A vertex that is not seen stays stale until it is; one whose material does not depend on the
 // view keeps what it has.
-void TripleSession::set_view(const Imath::V3f& eye, std::span<const std::uint32_t> seen) {
+void TripleSession::set_view(const Imath::V3f& eye,
+                             std::span<const std::uint32_t> seen,
+                             std::span<const float> weights) {
+    if (!weights.empty() && weights.size() != seen.size()) {
+        throw std::invalid_argument(std::to_string(weights.size()) + " weights, expected " +
+                                    std::to_string(seen.size()) + ", one a vertex");
+    }
     for (const std::uint32_t vertex : seen) {
         if (vertex >= surface_->vertex_count()) {
             throw std::invalid_argument("vertex " + std::to_string(vertex) +
@@ -95,9 +96,11 @@ void TripleSession::set_view(const Imath::V3f& eye, std::span<const std::uint32_
     const bool has_moved = eye != eye_;
     eye_ = eye;
     seen_.assign(seen.begin(), seen.end());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        weights_[seen[i]] = weights.empty() ? 1.0F : weights[i];
+    }
     make_stale([&](std::size_t vertex) {
-        const Material& material = materials_[surface_->material(vertex)];
-        return has_moved && material.field && material.field->depends_on_view();
+        return has_moved && materials_[surface_->material(vertex)].depends_on_view();
     });
 }
 
@@ -116,7 +119,7 @@ void TripleSession::begin_estimate() {
     first_stale_ = 0;
     squared_change_ = made_norm_ = norm_ = 0;
     for (const std::uint32_t vertex : seen_) {
-        norm_ += squared(radiance_[vertex]);
+        norm_ += double{weights_[vertex]} * squared(radiance_[vertex]);
         if (is_stale_[vertex]) {
             stale_.push_back(vertex);
         }
@@ -124,13 +127,24 @@ void TripleSession::begin_estimate() {
 }
 
 Radiance TripleSession::integrate(std::uint32_t vertex) const {
-    const Material& material = materials_[surface_->material(vertex)];
-    if (!material.field) {
+    const Finish& finish = materials_[surface_->material(vertex)];
+    if (!finish.material) {
         return {};
     }
-    return material.field->radiance(
-        surface_->normal(vertex), surface_->reflection(vertex, eye_), surface_->open(vertex),
-        {light_[0].data(), light_[1].data(), light_[2].data()}, material.colours);
+    const auto radiance_of = [&](const TexelMaterial& material) {
+        return material.radiance(surface_->normal(vertex), surface_->reflection(vertex, eye_),
+                                 surface_->open(vertex),
+                                 {light_[0].data(), light_[1].data(), light_[2].data()},
+                                 finish.colours);
+    };
+    Radiance radiance = radiance_of(*finish.material);
+    if (finish.next) {
+        const Radiance next = radiance_of(*finish.next);
+        for (std::size_t c = 0; c < radiance.size(); ++c) {
+            radiance[c] += finish.amount_of_next * (next[c] - radiance[c]);
+        }
+    }
+    return radiance;
 }
 
 bool TripleSession::advance_by(std::size_t vertices) {
@@ -147,8 +161,9 @@ bool TripleSession::advance_by(std::size_t vertices) {
                       [&](std::size_t i) { made[i] = integrate(stale_[first_stale_ + i]); });
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t vertex = stale_[first_stale_ + i];
-        squared_change_ += squared_distance(made[i], radiance_[vertex]);
-        made_norm_ += squared(made[i]) - squared(radiance_[vertex]);
+        const double weight = weights_[vertex];
+        squared_change_ += weight * squared_distance(made[i], radiance_[vertex]);
+        made_norm_ += weight * (squared(made[i]) - squared(radiance_[vertex]));
         radiance_[vertex] = made[i];
         is_stale_[vertex] = false;
     }

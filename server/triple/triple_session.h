@@ -7,6 +7,7 @@
 // those which are not, and tell how far the image is off; and none waits for ever.
 #pragma once
 
+#include "server/triple/finish.h"
 #include "server/triple/lit_surface.h"
 #include "server/triple/texel_material.h"
 
@@ -16,7 +17,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,16 +31,17 @@ class TripleSession {
     // Radiance of 6·n² texels, in the order of cubemap.h. Throws std::invalid_argument for
     // another size.
     void set_light(const std::array<std::span<const float>, 3>& texels);
-    // In place of what the material was; colours are those of the field where none are given.
-    // Vertices of a material that was never given are black. Throws std::invalid_argument where
-    // the surface has no such material, the field another resolution, or colours are not as
-    // many as lobes.
-    void set_material(std::uint32_t material,
-                      std::shared_ptr<const TexelMaterial> field,
-                      std::optional<std::vector<Imath::V3f>> colours = std::nullopt);
+    // In place of what the material was. Vertices of a material that was never set are black.
+    // Throws std::invalid_argument where the surface has no such material or the finish another
+    // resolution.
+    void set_material(std::uint32_t material, Finish finish);
     // Where the camera stands, in the frame of the mesh, and the vertices that it sees, each
-    // once. Throws std::invalid_argument for a vertex that is not there.
-    void set_view(const Imath::V3f& eye, std::span<const std::uint32_t> seen);
+    // once, with how much each counts in the stated error; all alike where no weights are given.
+    // Throws std::invalid_argument for a vertex that is not there and for another number of
+    // weights.
+    void set_view(const Imath::V3f& eye,
+                  std::span<const std::uint32_t> seen,
+                  std::span<const float> weights = {});
 
     // Makes up to so many integrals, or as many as end about when the time is over, at least
     // one run of them; false where nothing was left to do.
@@ -54,15 +55,12 @@ class TripleSession {
     // Relative L2 of the vertices seen, as estimated from those made since the edit; 1 where
     // none has been made yet, 0 where exact.
     [[nodiscard]] double stated_error() const;
+    // Squared length of what is shown at the vertices seen, by their weights.
+    [[nodiscard]] double squared_norm() const { return norm_ + made_norm_; }
     // [vertices]; of those that were never seen 0.
     [[nodiscard]] std::span<const Radiance> radiance() const { return radiance_; }
 
   private:
-    struct Material {
-        std::shared_ptr<const TexelMaterial> field;
-        std::vector<Imath::V3f> colours;
-    };
-
     [[nodiscard]] Radiance integrate(std::uint32_t vertex) const;
     template <typename IsStale>
     void make_stale(const IsStale& is_stale);
@@ -70,9 +68,10 @@ class TripleSession {
 
     const std::shared_ptr<const LitSurface> surface_;
     std::array<std::vector<float>, 3> light_;  // in squares
-    std::vector<Material> materials_;
+    std::vector<Finish> materials_;
     Imath::V3f eye_{0, 0, 0};
     std::vector<std::uint32_t> seen_;
+    std::vector<float> weights_;        // [vertices], of those seen
     std::vector<bool> is_stale_;        // [vertices], seen or not
     std::vector<std::uint32_t> stale_;  // seen ones; those before first_stale_ are made
     std::uint64_t random_ = 0;          // where the random numbers are

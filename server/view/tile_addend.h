@@ -45,6 +45,9 @@ class AddedView final : public View {
     [[nodiscard]] std::vector<float> block_weights() const override {
         return view_->block_weights();
     }
+    [[nodiscard]] SeenVertices seen_vertices() const override {
+        return view_->seen_vertices();
+    }
     void sums_have_changed() override { view_->sums_have_changed(); }
     void begin_image(std::span<const float> sums) override { view_->begin_image(sums); }
     void write_tiles(std::span<const float> sums,

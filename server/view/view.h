@@ -25,6 +25,14 @@ struct Look {
     friend bool operator==(const Look&, const Look&) = default;
 };
 
+// Vertices of a surface that an image shows, of the materials that are given their radiance
+// (mesh/given_radiance.h).
+struct SeenVertices {
+    std::vector<std::uint32_t> vertices;  // ascending, each once
+    std::vector<float> pixels;  // of each, on triangles of which it is a corner; above 0
+    bool shows_others = true;   // whether the image shows vertices of other materials
+};
+
 // An image of what a scene's receivers have been given. Sums are [blocks][3][256], in the basis
 // of their block and before tint (protocol/transport/block_basis.h). Each room has its own.
 // Images are cut into tiles of 16×16 pixels, so that they can be made piece by piece.
@@ -56,6 +64,8 @@ class View {
     // all 0 (engine::Session::set_block_weights); empty where all count alike. Of a block that
     // counts for nothing, sums are not looked at.
     [[nodiscard]] virtual std::vector<float> block_weights() const { return {}; }
+    // Of the view as it is looked at.
+    [[nodiscard]] virtual SeenVertices seen_vertices() const { return {}; }
     // The sums of the next image are not those of the image before.
     virtual void sums_have_changed() {}
     // Prepares for the tiles of one image of these sums.

@@ -1,5 +1,7 @@
 #include "tests/support/tiny_mesh.h"
 
+#include "protocol/basis/cubemap.h"
+#include "protocol/transport/visibility_field.h"
 #include "tests/support/surface_shapes.h"
 #include "tests/support/tiny_transport.h"
 
@@ -40,6 +42,34 @@ transport::SurfaceTexture random_texture(std::uint32_t width,
     return texture;
 }
 
+transport::VisibilityFieldBuilder random_visibility(const TinyMesh& tiny,
+                                                    std::uint32_t n,
+                                                    std::uint64_t seed) {
+    constexpr double kOpenPart = 0.7;
+    std::mt19937_64 random(seed);
+    std::bernoulli_distribution is_open(kOpenPart);
+    const std::size_t words = transport::words_of_visibility(n);
+    transport::VisibilityFieldBuilder visibility(
+        n, static_cast<std::uint32_t>(tiny.clusters.size()));
+    std::size_t vertex = 0;
+    for (std::uint32_t cluster = 0; cluster < tiny.clusters.size(); ++cluster) {
+        const std::uint32_t count = tiny.clusters[cluster].vertices;
+        std::vector<std::uint64_t> bits(words * count, 0);
+        for (std::uint32_t i = 0; i < count; ++i, ++vertex) {
+            const Imath::V3f& normal = tiny.surface.mesh.normals[vertex];
+            for (std::size_t t = 0; t < basis::texel_count(n); ++t) {
+                const Imath::V3d direction =
+                    basis::direction_from_texel(n, basis::texel_from_index(n, t));
+                if (direction.dot(Imath::V3d(normal)) > 0 && is_open(random)) {
+                    bits[words * i + t / 64] |= std::uint64_t{1} << t % 64;
+                }
+            }
+        }
+        visibility.set_block(cluster, bits);
+    }
+    return visibility;
+}
+
 }  // namespace
 
 TinyMesh tiny_mesh(std::uint64_t seed) {
@@ -73,7 +103,9 @@ TinyMesh tiny_mesh(std::uint64_t seed) {
     return tiny;
 }
 
-void write_tiny_mesh_transport(const std::filesystem::path& directory, std::uint64_t seed) {
+void write_tiny_mesh_transport(const std::filesystem::path& directory,
+                               std::uint64_t seed,
+                               std::uint32_t visibility_resolution) {
     TinyMesh tiny = tiny_mesh(seed);
     transport::Manifest manifest;
     manifest.generator = "relume tests";
@@ -96,8 +128,14 @@ void write_tiny_mesh_transport(const std::filesystem::path& directory, std::uint
                                            .mesh = {},
                                            .brdfs = {},
                                            .textures = {}};
-    write_random_transport(directory, manifest, {.blocks_per_shard = 3, .seed = seed},
-                           &tiny.surface);
+    const TinyTransportOptions options{.blocks_per_shard = 3, .seed = seed};
+    if (visibility_resolution == 0) {
+        write_random_transport(directory, manifest, options, &tiny.surface);
+        return;
+    }
+    const transport::VisibilityFieldBuilder visibility =
+        random_visibility(tiny, visibility_resolution, seed);
+    write_random_transport(directory, manifest, options, &tiny.surface, &visibility);
 }
 
 }  // namespace relume::test

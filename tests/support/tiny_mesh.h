@@ -22,7 +22,11 @@ struct TinyMesh {
 [[nodiscard]] TinyMesh tiny_mesh(std::uint64_t seed = 1);
 
 // A whole directory of random light transport onto that mesh, which lies around (10, 20, 30) in
-// the world and has twice its size there. Rooms begin inside, with images of 40×24 pixels.
-void write_tiny_mesh_transport(const std::filesystem::path& directory, std::uint64_t seed = 1);
+// the world and has twice its size there. Rooms begin inside, with images of 40×24 pixels. With
+// a visibility of this face resolution, of random bits above the vertices' horizons, unless it
+// is 0.
+void write_tiny_mesh_transport(const std::filesystem::path& directory,
+                               std::uint64_t seed = 1,
+                               std::uint32_t visibility_resolution = 0);
 
 }  // namespace relume::test

@@ -93,7 +93,8 @@ transport::BakedTables tiny_tables(const transport::Manifest& manifest,
 void write_random_transport(const std::filesystem::path& directory,
                             const transport::Manifest& manifest,
                             const TinyTransportOptions& options,
-                            const transport::Surface* surface) {
+                            const transport::Surface* surface,
+                            const transport::VisibilityFieldBuilder* visibility) {
     const transport::ShardPlan plan =
         transport::ShardPlan::equal(manifest.block_count(), options.blocks_per_shard);
     std::mt19937_64 random(options.seed);
@@ -112,6 +113,9 @@ void write_random_transport(const std::filesystem::path& directory,
     }
     if (surface != nullptr) {
         writer.write_surface(*surface);
+    }
+    if (visibility != nullptr) {
+        writer.write_visibility(*visibility);
     }
     writer.finish(tiny_tables(manifest, random), {{"note", "random"}});
 }

@@ -31,7 +31,8 @@ void write_tiny_transport(const std::filesystem::path& directory,
 void write_random_transport(const std::filesystem::path& directory,
                             const transport::Manifest& manifest,
                             const TinyTransportOptions& options,
-                            const transport::Surface* surface = nullptr);
+                            const transport::Surface* surface = nullptr,
+                            const transport::VisibilityFieldBuilder* visibility = nullptr);
 
 // Σ_j T_j L_j in double precision: [blocks][3][256], before tint. `lighting` is planar [3][N].
 [[nodiscard]] std::vector<double> dense_product(const transport::Transport& transport,

@@ -29,21 +29,4 @@ std::string no_such_material(const std::string& option,
                        text::expected_name(name, names, "materials"));
 }
 
-std::string MaterialIds::next(const std::string& name) {
-    std::string id = name.substr(0, text::kMaxNameLength - 3);
-    for (char& letter : id) {
-        if (!text::is_name(std::string("a") + letter)) {
-            letter = '-';
-        }
-    }
-    if (!text::is_name(id)) {
-        id = "material" + id;
-    }
-    std::string free = id;
-    for (int number = 2; !taken_.insert(free).second; ++number) {
-        free = fmt::format("{}-{}", id, number);
-    }
-    return free;
-}
-
 }  // namespace relume::bake

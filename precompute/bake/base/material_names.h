@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -20,15 +19,5 @@ namespace relume::bake {
 [[nodiscard]] std::string no_such_material(const std::string& option,
                                            const std::string& name,
                                            const scene::Scene& scene);
-
-// IDs by which rooms call materials, each once: of the name, with dashes for letters that IDs
-// have none of, and a number where that is taken.
-class MaterialIds {
-  public:
-    [[nodiscard]] std::string next(const std::string& name);
-
-  private:
-    std::set<std::string> taken_;
-};
 
 }  // namespace relume::bake

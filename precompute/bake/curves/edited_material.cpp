@@ -4,6 +4,7 @@
 #include "precompute/bake/curves/curve_model.h"
 #include "precompute/bake/curves/point_brdf.h"
 #include "protocol/base/program/usage.h"
+#include "protocol/base/text/material_ids.h"
 #include "protocol/curve/curve_json.h"
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ std::vector<EditedMaterial> edited_materials(const scene::Scene& scene,
                                              std::span<const MeasuredBrdf> measured) {
     StatedModels models(request, measured);
     std::vector<EditedMaterial> materials;
-    MaterialIds ids;
+    text::MaterialIds ids;
     for (const std::string& text : request.edits) {
         const Edit edit = edit_from_text(scene, text);
         const scene::Material& material = scene.materials[edit.material];

@@ -3,6 +3,7 @@
 #include "precompute/bake/base/material_names.h"
 #include "precompute/bake/curves/edited_material.h"
 #include "protocol/base/program/usage.h"
+#include "protocol/base/text/material_ids.h"
 #include "protocol/curve/curve_json.h"
 
 namespace relume::bake {
@@ -22,7 +23,7 @@ bool has_specular_textures(const scene::Material& material) {
            (material.base_texture && material.metallic > 0);
 }
 
-transport::EditableRecord record_of(const scene::Material& material, MaterialIds& ids) {
+transport::EditableRecord record_of(const scene::Material& material, text::MaterialIds& ids) {
     transport::EditableRecord record{
         .id = ids.next(material.name), .name = material.name, .brdf = nullptr, .coat = {}};
     if (material.model != scene::BsdfModel::lambert) {
@@ -40,7 +41,7 @@ transport::EditableRecord record_of(const scene::Material& material, MaterialIds
 std::vector<EditableMaterial> editable_materials(const scene::Scene& scene,
                                                  const FieldRequest& request) {
     std::vector<EditableMaterial> materials;
-    MaterialIds ids;
+    text::MaterialIds ids;
     for (const std::string& name : request.editable) {
         const auto found = find_material(scene, name);
         if (!found) {

@@ -15,6 +15,7 @@ void for_each_section(Visit&& visit) {
     visit(kRotation, &RoomState::rotation);
     visit(kAreaLights, &RoomState::lights);
     visit(kMaterials, &RoomState::materials);
+    visit(kFinishes, &RoomState::finishes);
     visit(kBackground, &RoomState::background);
     visit(kCamera, &RoomState::camera);
     visit(kImageSize, &RoomState::image);

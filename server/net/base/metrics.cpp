@@ -92,6 +92,8 @@ struct Metrics::Families {
     Gauge& scene_bytes = gauge(registry, "relume_scene_bytes", "Bytes of transport in memory");
     Gauge& environment_bytes =
         gauge(registry, "relume_environment_bytes", "Bytes of environments kept in memory");
+    Gauge& material_bytes =
+        gauge(registry, "relume_material_bytes", "Bytes of materials in texels kept in memory");
     Gauge& dropped_log_lines = gauge(
         registry, "relume_log_lines_dropped", "Lines of the log that nobody took in time");
 };
@@ -168,6 +170,9 @@ void Metrics::set_scenes(std::size_t count, std::uint64_t bytes) {
 }
 void Metrics::set_environment_bytes(std::size_t bytes) {
     families_->environment_bytes.Set(static_cast<double>(bytes));
+}
+void Metrics::set_material_bytes(std::size_t bytes) {
+    families_->material_bytes.Set(static_cast<double>(bytes));
 }
 void Metrics::set_dropped_log_lines(std::uint64_t count) {
     families_->dropped_log_lines.Set(static_cast<double>(count));

@@ -44,6 +44,7 @@ class Metrics {
     void add_connections(int difference);
     void set_scenes(std::size_t count, std::uint64_t bytes);
     void set_environment_bytes(std::size_t bytes);
+    void set_material_bytes(std::size_t bytes);
     void set_dropped_log_lines(std::uint64_t count);
 
     // Slices relit for all rooms so far: stands still when every room is at rest.

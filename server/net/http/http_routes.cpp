@@ -75,13 +75,14 @@ HttpReply image_reply(std::string content_type, std::shared_ptr<const std::strin
 }  // namespace
 
 HttpRoutes::HttpRoutes(const SceneLibrary& scenes,
-                       const EnvironmentLibrary& environments,
+                       const Libraries& libraries,
                        const StaticFiles& files,
                        const Access& access,
                        const Readiness& readiness,
                        Metrics& metrics)
     : scenes_(scenes),
-      environments_(environments),
+      environments_(libraries.environments),
+      materials_(libraries.materials),
       files_(files),
       access_(access),
       readiness_(readiness),
@@ -152,6 +153,9 @@ HttpReply HttpRoutes::answer_api(const HttpRequest& request) const {
     if (path == kEnvironmentsPath) {
         return environments();
     }
+    if (path == "/api/materials") {
+        return materials();
+    }
     if (const auto asked = scene_picture(path)) {
         return picture(asked->scene, asked->picture);
     }
@@ -175,6 +179,7 @@ HttpReply HttpRoutes::readyz() const {
 
 HttpReply HttpRoutes::metrics() const {
     metrics_.set_environment_bytes(environments_.resident_bytes());
+    metrics_.set_material_bytes(materials_.resident_bytes());
     metrics_.set_dropped_log_lines(dropped_log_lines());
     HttpReply reply = text_reply(200, metrics_.text());
     reply.content_type = "text/plain; version=0.0.4; charset=utf-8";
@@ -199,6 +204,14 @@ HttpReply HttpRoutes::environments() const {
                        {"height", environment.height}});
     }
     return json_reply(200, nlohmann::json{{"environments", std::move(all)}}.dump());
+}
+
+HttpReply HttpRoutes::materials() const {
+    nlohmann::json all = nlohmann::json::array();
+    for (const MaterialLibrary::SharedFamily& family : materials_.list()) {
+        all.push_back(wire::to_json(family->description()));
+    }
+    return json_reply(200, nlohmann::json{{"materials", std::move(all)}}.dump());
 }
 
 HttpReply HttpRoutes::picture(std::string_view name, ScenePicture picture) const {

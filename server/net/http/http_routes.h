@@ -6,7 +6,7 @@
 #include "server/net/http/access.h"
 #include "server/net/http/http_message.h"
 #include "server/net/http/static_files.h"
-#include "server/net/library/environment_library.h"
+#include "server/net/library/libraries.h"
 #include "server/net/library/scene_library.h"
 
 #include <string>
@@ -18,7 +18,7 @@ namespace relume::net {
 class HttpRoutes {
   public:
     HttpRoutes(const SceneLibrary& scenes,
-               const EnvironmentLibrary& environments,
+               const Libraries& libraries,
                const StaticFiles& files,
                const Access& access,
                const Readiness& readiness,
@@ -37,6 +37,7 @@ class HttpRoutes {
     [[nodiscard]] HttpReply answer_api(const HttpRequest& request) const;
     [[nodiscard]] HttpReply scenes() const;
     [[nodiscard]] HttpReply environments() const;
+    [[nodiscard]] HttpReply materials() const;
     [[nodiscard]] HttpReply picture(std::string_view name, ScenePicture picture) const;
     [[nodiscard]] HttpReply preview(std::string_view name) const;
     [[nodiscard]] HttpReply file(const HttpRequest& request) const;
@@ -45,6 +46,7 @@ class HttpRoutes {
 
     const SceneLibrary& scenes_;
     const EnvironmentLibrary& environments_;
+    const MaterialLibrary& materials_;
     const StaticFiles& files_;
     const Access& access_;
     const Readiness& readiness_;

@@ -31,6 +31,7 @@ class FrameComposer {
     bool look_closer();
     // Of the view as it is looked at.
     [[nodiscard]] std::vector<float> block_weights() const { return view_->block_weights(); }
+    [[nodiscard]] const view::View& view() const { return *view_; }
     // The sums of the next picture are not those of the picture before.
     void sums_have_changed() { view_->sums_have_changed(); }
 

@@ -44,6 +44,14 @@ std::vector<wire::EditableMaterial> materials_of(const served::Scene& scene) {
     return materials;
 }
 
+std::vector<wire::ScenePart> parts_of(const served::Scene& scene) {
+    std::vector<wire::ScenePart> parts;
+    for (const served::ScenePart& part : scene.parts()) {
+        parts.push_back({.id = part.id, .name = part.name});
+    }
+    return parts;
+}
+
 std::vector<std::string> edits_of(const served::Scene& scene) {
     std::vector<std::string> edits{"strategy", "budget", "display"};
     if (!scene.is_lit()) {
@@ -57,6 +65,9 @@ std::vector<std::string> edits_of(const served::Scene& scene) {
     if (scene.view_can_move()) {
         edits.insert(edits.end(), {"camera", "image"});
     }
+    if (scene.lit_surface()) {
+        edits.insert(edits.end(), "finishes");
+    }
     return edits;
 }
 
@@ -66,6 +77,7 @@ wire::SceneSummary ServedScene::summary() const {
     const transport::Manifest& manifest = loaded->transport().manifest();
     const bool has_order = loaded->is_lit() && loaded->projection().basis().order() > 0;
     const auto& sampling = manifest.sampling_error;
+    const auto& lit = loaded->lit_surface();
     return {
         .name = name,
         .kind = std::string(transport::kKindNames.name(manifest.kind)),
@@ -82,6 +94,8 @@ wire::SceneSummary ServedScene::summary() const {
         .camera = camera_of(loaded->beginning()),
         .bounds = bounds_of(*loaded),
         .materials = materials_of(*loaded),
+        .visibility_resolution = lit ? std::optional(lit->face_resolution()) : std::nullopt,
+        .parts = parts_of(*loaded),
         .edits = edits_of(*loaded)};
 }
 

@@ -11,7 +11,7 @@ namespace relume::net {
 Document::Document(const wire::SceneSummary& scene,
                    std::shared_ptr<Environment> environment,
                    std::span<const transport::CurveRecord> curves)
-    : edits_(scene.edits), curves_(curves) {
+    : scene_(scene), curves_(curves) {
     state_.camera = scene.camera.value_or(wire::Camera{});
     state_.image = {.width = scene.width, .height = scene.height};
     state_.environment.name = environment->description().name;
@@ -43,20 +43,25 @@ void require_drawable(const wire::ImageSize& image, const wire::Limits& limits) 
 DocumentChange Document::edit(ViewerId author,
                               const wire::Edit& edit,
                               const wire::Limits& limits,
-                              const EnvironmentLibrary& library) {
+                              const Libraries& libraries) {
     wire::RoomState next = state_;
-    const nlohmann::json patch = with_samples(edit.patch, state_.materials, curves_);
+    const nlohmann::json patch = with_fresh_finishes(
+        with_samples(edit.patch, state_.materials, curves_), state_.finishes);
     DocumentChange change{.revision = revision_ + 1,
                           .patch = wire::apply_patch(next, patch, limits).patch,
                           .author = author,
                           .edit_id = edit.id,
                           .stages = {}};
-    wire::require_kept(state_, next, edits_);
+    wire::require_kept(state_, next, scene_.edits);
     if (next.image != state_.image) {
         require_drawable(next.image, limits);
     }
     change.stages = wire::stages_of(change.patch);
-    environments_ = environments_after(environments_, next, change.patch, library);
+    NamedFinishes finishes =
+        finishes_after(finishes_, next, change.patch, scene_, libraries.materials);
+    environments_ =
+        environments_after(environments_, next, change.patch, libraries.environments);
+    finishes_ = std::move(finishes);
     state_ = std::move(next);
     advance(change);
     return change;

@@ -6,7 +6,9 @@
 #include "protocol/wire/messages.h"
 #include "protocol/wire/room_state.h"
 #include "protocol/wire/scene_summary.h"
+#include "server/net/library/libraries.h"
 #include "server/net/rooms/named_environments.h"
+#include "server/net/rooms/named_finishes.h"
 #include "server/net/rooms/stages.h"
 #include "server/net/rooms/viewer.h"
 
@@ -44,7 +46,7 @@ class Document {
     [[nodiscard]] DocumentChange edit(ViewerId author,
                                       const wire::Edit& edit,
                                       const wire::Limits& limits,
-                                      const EnvironmentLibrary& library);
+                                      const Libraries& libraries);
     // Another map has taken its place behind `name`. Where the state names it, the state takes
     // the new map, and the change that is returned names it once more; otherwise nothing
     // happens.
@@ -53,6 +55,7 @@ class Document {
 
     [[nodiscard]] const wire::RoomState& state() const { return state_; }
     [[nodiscard]] const NamedEnvironments& environments() const { return environments_; }
+    [[nodiscard]] const NamedFinishes& finishes() const { return finishes_; }
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
     // The last revision that may have changed linear pixels. An image of this or a later
     // revision has the linear pixels of the state; display and policy may have changed since.
@@ -61,10 +64,11 @@ class Document {
   private:
     void advance(const DocumentChange& change);
 
-    const std::vector<std::string> edits_;  // the sections that take them
+    const wire::SceneSummary scene_;
     const std::span<const transport::CurveRecord> curves_;
     wire::RoomState state_;
     NamedEnvironments environments_;
+    NamedFinishes finishes_;
     std::uint64_t revision_ = 0;
     std::uint64_t revision_of_pixels_ = 0;
 };

@@ -77,9 +77,29 @@ bool LightSignal::set_state(const wire::RoomState& state,
         return false;
     }
     rig_ = std::move(rig);
+    environments_ = environments;
+    other_cubemap_ = {};
     light::evaluate(rig_, n, cubemap_);
     light::lighting_coefficients(cubemap_, projection_, coefficients_);
     return true;
+}
+
+// Environments that the rig has could be decoded, and can be still.
+const light::LightCubemap* LightSignal::cubemap(std::uint32_t face_resolution) {
+    if (face_resolution == cubemap_.face_resolution) {
+        return &cubemap_;
+    }
+    if (other_cubemap_.face_resolution != face_resolution) {
+        light::LightRig rig = rig_;
+        if (rig.environment) {
+            rig.environment = environments_.environment->prefiltered(face_resolution);
+        }
+        if (rig.blend) {
+            rig.blend = environments_.blend->prefiltered(face_resolution);
+        }
+        light::evaluate(rig, face_resolution, other_cubemap_);
+    }
+    return &other_cubemap_;
 }
 
 }  // namespace relume::net

@@ -19,13 +19,15 @@ class LightSignal final : public RoomSignal {
                                  const NamedEnvironments& environments,
                                  std::vector<wire::ErrorMessage>& problems) override;
     [[nodiscard]] std::span<const float> coefficients() const override { return coefficients_; }
-    [[nodiscard]] const light::LightCubemap* cubemap() const override { return &cubemap_; }
+    [[nodiscard]] const light::LightCubemap* cubemap(std::uint32_t face_resolution) override;
     [[nodiscard]] const light::LightRig& rig() const override { return rig_; }
 
   private:
     const basis::CubemapProjection& projection_;
     light::LightRig rig_;
+    NamedEnvironments environments_;
     light::LightCubemap cubemap_;
+    light::LightCubemap other_cubemap_;  // of the resolution asked for last; 0: none
     std::vector<float> coefficients_;
 };
 

@@ -1,9 +1,6 @@
 #include "server/net/rooms/relighter.h"
 
-#include "server/view/tile_addend.h"
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -20,15 +17,6 @@ view::Look look_of(const wire::RoomState& state) {
             .height = state.image.height};
 }
 
-std::unique_ptr<view::View> make_view(const served::Scene& scene,
-                                      const view::TileAddend* addend) {
-    std::unique_ptr<view::View> view = scene.make_view();
-    if (addend == nullptr) {
-        return view;
-    }
-    return std::make_unique<view::AddedView>(std::move(view), *addend);
-}
-
 }  // namespace
 
 Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
@@ -38,19 +26,15 @@ Relighter::Relighter(std::shared_ptr<const ServedScene> scene,
     : scene_(std::move(scene)),
       metrics_(metrics),
       session_(scene_->loaded->workspace(), relighting::Strategy{}),
-      materials_(scene_->loaded->editable_points()
-                     ? std::unique_ptr<Materials>(new Materials{
-                           EditedMaterials(scene_->loaded->editable_points()),
-                           materials::MaterialLayer(scene_->loaded->editable_points(),
-                                                    material_bytes)})
-                     : nullptr),
+      layer_(make_layer(scene_->loaded, material_bytes)),
       composer_(std::make_shared<FrameComposer>(
-          make_view(*scene_->loaded, materials_ ? &materials_->layer : nullptr), scene_->sky)),
+          layer_ ? layer_->make_view() : scene_->loaded->make_view(), scene_->sky)),
       signal_(make_signal(*scene_->loaded)),
       budget_(milliseconds(ceiling)) {}
 
 std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& state,
                                                      const NamedEnvironments& environments,
+                                                     const NamedFinishes& finishes,
                                                      wire::Stages stages) {
     const Clock::time_point begin = Clock::now();
     std::vector<wire::ErrorMessage> problems;
@@ -63,12 +47,18 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
         session_.set_target(signal_->coefficients());
         pixels_changed();
     }
-    if (materials_ && stages.has(wire::Stage::signal)) {
-        set_materials(state, signal_is_new);
+    RoomLayer::Change of_layer;
+    if (layer_ && stages.has(wire::Stage::signal)) {
+        of_layer = layer_->set_state(state, finishes, *signal_, signal_is_new, problems);
+        if (of_layer.pixels) {
+            pixels_changed();
+        }
     }
     const bool sees_environment = state.background.mode == wire::BackgroundMode::environment;
-    if (stages.has(wire::Stage::view) && (composer_->look(look_of(state)) || !state_)) {
-        tell_session_what_counts();
+    const bool looks_anew =
+        stages.has(wire::Stage::view) && (composer_->look(look_of(state)) || !state_);
+    if (looks_anew || of_layer.parts) {
+        looked_anew();
     }
     if (stages.has(wire::Stage::view) || (signal_is_new && sees_environment)) {
         composer_->set_background(state.background, signal_->rig());
@@ -91,7 +81,10 @@ std::vector<wire::ErrorMessage> Relighter::set_state(const wire::RoomState& stat
 }
 
 // What has not counted is brought up to date where it counts now; an exact image is so already.
-void Relighter::tell_session_what_counts() {
+void Relighter::looked_anew() {
+    if (layer_) {
+        layer_->set_view(composer_->view());
+    }
     const std::vector<float> weights = composer_->block_weights();
     if (weights.empty()) {
         return;
@@ -102,52 +95,31 @@ void Relighter::tell_session_what_counts() {
     }
 }
 
-// A layer that shows nothing is not told of the light.
-void Relighter::set_materials(const wire::RoomState& state, bool light_is_new) {
-    materials_->light_is_new = materials_->light_is_new || light_is_new;
-    const bool edits_are_new = materials_->edited.set_edits(state.materials);
-    if (materials_->light_is_new && !state.materials.empty()) {
-        materials_->layer.set_light(*signal_->cubemap());
-        materials_->light_is_new = false;
-    }
-    if (edits_are_new) {
-        materials_->layer.set_shown(materials_->edited.shown());
-        pixels_changed();
-    }
-}
-
-void Relighter::advance_materials(double milliseconds) {
+void Relighter::advance_layer(double milliseconds) {
     const Clock::time_point begin = Clock::now();
-    if (materials_->layer.advance(milliseconds)) {
+    if (layer_->advance(milliseconds)) {
         pixels_changed();
     }
     relight_time_ += Clock::now() - begin;
 }
 
 bool Relighter::exact() const {
-    return session_.exact() && (!materials_ || materials_->layer.is_whole());
+    return (session_.exact() || !shows_transport()) && (!layer_ || layer_->is_exact());
+}
+
+bool Relighter::transport_rests() const {
+    return session_.at_rest(state_->budget) || !shows_transport();
 }
 
 bool Relighter::at_rest() const {
     const double enough = state_->budget.target_error;
-    return session_.at_rest(state_->budget) &&
-           (!materials_ || !materials_->layer.has_work() ||
-            (!materials_->layer.awaits_first_look() && stated_error() <= enough));
+    return transport_rests() &&
+           (!layer_ || !layer_->has_work() || (!layer_waits() && stated_error() <= enough));
 }
 
-// What the light's image lacks and what materials lack are independent. Of an edit that is not
-// to be seen yet nothing is known.
 double Relighter::stated_error() const {
-    if (materials_ && materials_->layer.awaits_first_look()) {
-        return 1;
-    }
-    const double of_light = session_.stated_error();
-    const double of_materials = materials_ ? materials_->layer.error() : 0;
-    if (of_materials == 0) {
-        return of_light;
-    }
-    const double norm = session_.shown_norm();
-    return norm > 0 ? std::hypot(of_light, of_materials / norm) : 1;
+    const double of_transport = session_.stated_error();
+    return layer_ ? layer_->stated_error(of_transport, session_.shown_norm()) : of_transport;
 }
 
 void Relighter::pixels_changed() {
@@ -160,7 +132,10 @@ void Relighter::advance_together(std::span<Relighter* const> relighters) {
     std::vector<engine::SessionStep> slices;
     std::vector<Relighter*> relit;
     for (Relighter* relighter : relighters) {
-        if (relighter->session_.at_rest(relighter->state_->budget)) {
+        // An image that waits for its layer alone has had what its budget allows.
+        if (relighter->transport_rests() ||
+            (relighter->layer_waits() &&
+             relighter->budget_.is_spent(relighter->state_->budget))) {
             continue;
         }
         relit.push_back(relighter);
@@ -178,8 +153,8 @@ void Relighter::advance_together(std::span<Relighter* const> relighters) {
         relit[i]->relit(slices[i].report, spent);
     }
     for (Relighter* relighter : relighters) {
-        if (relighter->materials_) {
-            relighter->advance_materials(relighter->budget_.ceiling_ms() / 2);
+        if (relighter->layer_) {
+            relighter->advance_layer(relighter->budget_.ceiling_ms() / 2);
         }
     }
 }
@@ -197,10 +172,8 @@ void Relighter::relit(const engine::StepReport& report, Clock::duration spent) {
 }
 
 bool Relighter::step_is_complete() const {
-    const bool is_seen = !materials_ || !materials_->layer.awaits_first_look();
-    return at_rest() ||
-           (!shows_state_before() && is_seen &&
-            (session_.at_rest(state_->budget) || budget_.is_spent(state_->budget)));
+    return at_rest() || (!shows_state_before() && !layer_waits() &&
+                         (transport_rests() || budget_.is_spent(state_->budget)));
 }
 
 void Relighter::compose(const ImageForms& forms, bool settled) {
@@ -214,14 +187,26 @@ void Relighter::compose(const ImageForms& forms, bool settled) {
     }
 }
 
+// At edges show a few more vertices. What was exact stays so.
+void Relighter::look_closer() {
+    const bool was_exact = exact();
+    if (!composer_->look_closer()) {
+        return;
+    }
+    looked_anew();
+    composer_->set_background(state_->background, signal_->rig());
+    while (was_exact && layer_ && !layer_->is_exact()) {
+        advance_layer(budget_.ceiling_ms());
+    }
+}
+
 Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int jpeg_quality) {
-    if (stamp.settled && composer_->look_closer()) {
-        tell_session_what_counts();
-        composer_->set_background(state_->background, signal_->rig());
+    if (stamp.settled) {
+        look_closer();
     }
     compose(forms, stamp.settled);
     const bool is_exact = exact();
-    const std::size_t tiles_to_come = materials_ ? materials_->layer.tiles_to_come() : 0;
+    const std::size_t to_come = layer_ ? layer_->remaining() : 0;
     Picture picture{
         .header = {.encoding = {},
                    .width = composer_->width(),
@@ -237,8 +222,8 @@ Picture Relighter::picture(const ImageStamp& stamp, const ImageForms& forms, int
                    .encode_ms = 0,
                    .coefficients_applied = applied_,
                    .payload_bytes = 0,
-                   .coefficients_remaining = session_.exact()
-                                                 ? static_cast<std::uint32_t>(tiles_to_come)
+                   .coefficients_remaining = session_.exact() || !shows_transport()
+                                                 ? static_cast<std::uint32_t>(to_come)
                                                  : remaining_},
         .has_alpha = composer_->has_alpha(),
         .settled = stamp.settled,

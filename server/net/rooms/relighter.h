@@ -14,8 +14,9 @@
 #include "server/net/images/image_frame.h"
 #include "server/net/images/picture.h"
 #include "server/net/library/scene_library.h"
-#include "server/net/rooms/edited_materials.h"
 #include "server/net/rooms/named_environments.h"
+#include "server/net/rooms/named_finishes.h"
+#include "server/net/rooms/room_layer.h"
 #include "server/net/rooms/room_signal.h"
 #include "server/net/rooms/stages.h"
 #include "server/net/rooms/step_budget.h"
@@ -43,6 +44,7 @@ class Relighter {
     // names it.
     std::vector<wire::ErrorMessage> set_state(const wire::RoomState& state,
                                               const NamedEnvironments& environments,
+                                              const NamedFinishes& finishes,
                                               wire::Stages stages);
 
     // Relights a slice for each, in one sweep over the transport: as much as the budget of its
@@ -52,7 +54,9 @@ class Relighter {
     // Whether the image holds what the budget allows, and may be shown.
     [[nodiscard]] bool step_is_complete() const;
     // Whether the image is still that of the light before.
-    [[nodiscard]] bool shows_state_before() const { return session_.shows_target_before(); }
+    [[nodiscard]] bool shows_state_before() const {
+        return shows_transport() && session_.shows_target_before();
+    }
     // Nothing is left to do: exact, or the target error is met.
     [[nodiscard]] bool at_rest() const;
     [[nodiscard]] double stated_error() const;
@@ -70,18 +74,15 @@ class Relighter {
     void set_overhead(double milliseconds) { budget_.set_overhead(milliseconds); }
 
   private:
-    // Materials that are edited beside the light.
-    struct Materials {
-        EditedMaterials edited;
-        materials::MaterialLayer layer;
-        bool light_is_new = true;
-    };
-
-    void set_materials(const wire::RoomState& state, bool light_is_new);
-    void advance_materials(double milliseconds);
     [[nodiscard]] bool exact() const;
-    // Of the view, as it is looked at.
-    void tell_session_what_counts();
+    // Whether any pixel shows the transport: a layer may hide all of it.
+    [[nodiscard]] bool shows_transport() const { return !layer_ || layer_->shows_transport(); }
+    [[nodiscard]] bool transport_rests() const;
+    [[nodiscard]] bool layer_waits() const { return layer_ && layer_->awaits_first_look(); }
+    // The view has changed, or what it shows of the transport and the layer.
+    void looked_anew();
+    void advance_layer(double milliseconds);
+    void look_closer();
     void relit(const engine::StepReport& report, Clock::duration spent);
     void pixels_changed();
     void compose(const ImageForms& forms, bool settled);
@@ -89,7 +90,7 @@ class Relighter {
     const std::shared_ptr<const ServedScene> scene_;
     Metrics& metrics_;
     engine::Session session_;
-    const std::unique_ptr<Materials> materials_;  // null where none are edited beside light
+    const std::unique_ptr<RoomLayer> layer_;  // null where light or curves alone are edited
     std::shared_ptr<FrameComposer> composer_;
 
     const std::unique_ptr<RoomSignal> signal_;

@@ -12,13 +12,13 @@ namespace relume::net {
 Room::Room(std::string name,
            std::shared_ptr<const ServedScene> scene,
            std::shared_ptr<Environment> environment,
-           const EnvironmentLibrary& library,
+           const Libraries& libraries,
            RoomThreads threads,
            Metrics& metrics,
            const RoomOptions& options)
     : name_(std::move(name)),
       scene_(std::move(scene)),
-      library_(library),
+      libraries_(libraries),
       threads_(threads),
       metrics_(metrics),
       options_(options),
@@ -70,7 +70,7 @@ void Room::edit(ViewerId author, const wire::Edit& edit, Clock::time_point read_
         throw wire::WireError(wire::ErrorCode::shutting_down, "", "an edit",
                               "no edits while the server shuts down");
     }
-    const DocumentChange change = document_.edit(author, edit, options_.limits, library_);
+    const DocumentChange change = document_.edit(author, edit, options_.limits, libraries_);
     metrics_.count_edit();
     schedule_.state_edited(change.stages, read_at);
     tell_change_locked(change);
@@ -81,7 +81,7 @@ void Room::environment_replaced(const std::string& name) {
     if (stopped_) {
         return;
     }
-    if (const auto change = document_.environment_replaced(name, library_)) {
+    if (const auto change = document_.environment_replaced(name, libraries_.environments)) {
         schedule_.state_changed(change->stages, Clock::now());
         tell_change_locked(*change);
     }
@@ -231,6 +231,7 @@ std::optional<RoomSlice> Room::begin_slice() {
     if (slice.order.takes_state) {
         slice.state = document_.state();
         slice.environments = document_.environments();
+        slice.finishes = document_.finishes();
         taken_revision_ = document_.revision();
     }
     slice.revision = taken_revision_;

@@ -7,7 +7,7 @@
 #include "server/net/base/clock.h"
 #include "server/net/base/metrics.h"
 #include "server/net/images/frame_encoder.h"
-#include "server/net/library/environment_library.h"
+#include "server/net/library/libraries.h"
 #include "server/net/library/scene_library.h"
 #include "server/net/rooms/audience.h"
 #include "server/net/rooms/document.h"
@@ -53,7 +53,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
     Room(std::string name,
          std::shared_ptr<const ServedScene> scene,
          std::shared_ptr<Environment> environment,
-         const EnvironmentLibrary& library,
+         const Libraries& libraries,
          RoomThreads threads,
          Metrics& metrics,
          const RoomOptions& options);
@@ -113,7 +113,7 @@ class Room : public WorkItem, public std::enable_shared_from_this<Room> {
 
     const std::string name_;
     const std::shared_ptr<const ServedScene> scene_;
-    const EnvironmentLibrary& library_;
+    const Libraries libraries_;
     const RoomThreads threads_;
     Metrics& metrics_;
     const RoomOptions options_;

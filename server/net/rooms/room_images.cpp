@@ -18,7 +18,8 @@ std::vector<wire::ErrorMessage> RoomImages::begin(const RoomSlice& slice) {
     if (!slice.order.takes_state) {
         return {};
     }
-    return relighter_->set_state(slice.state, slice.environments, slice.order.stages);
+    return relighter_->set_state(slice.state, slice.environments, slice.finishes,
+                                 slice.order.stages);
 }
 
 Relighter* RoomImages::next_to_relight(const RoomSlice& slice) {

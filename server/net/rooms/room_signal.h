@@ -9,6 +9,7 @@
 #include "server/net/rooms/named_environments.h"
 #include "server/scene/scene.h"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,8 +31,12 @@ class RoomSignal {
                                          std::vector<wire::ErrorMessage>& problems) = 0;
     // Of the scene's basis, planar [3][N].
     [[nodiscard]] virtual std::span<const float> coefficients() const = 0;
-    // The light as texels, of a scene that is lit; else null.
-    [[nodiscard]] virtual const light::LightCubemap* cubemap() const { return nullptr; }
+    // The light as texels of this resolution, of a scene that is lit; else null. Until the
+    // signal is made anew.
+    [[nodiscard]] virtual const light::LightCubemap* cubemap(
+        std::uint32_t /*face_resolution*/) {
+        return nullptr;
+    }
     // The light that shows behind the scene; dark where the bake holds what shows there.
     [[nodiscard]] virtual const light::LightRig& rig() const = 0;
 };

@@ -6,6 +6,7 @@
 #include "server/net/images/image_frame.h"
 #include "server/net/images/picture.h"
 #include "server/net/rooms/named_environments.h"
+#include "server/net/rooms/named_finishes.h"
 #include "server/net/rooms/schedule.h"
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct RoomSlice {
     SliceOrder order;
     wire::RoomState state;  // set if the order takes it
     NamedEnvironments environments;
+    NamedFinishes finishes;
     std::uint64_t revision = 0;  // of the state that is relit
     bool settled_image_due = false;
     // An earlier settled image. If nothing has been relit since, it shows this state as well.

@@ -24,16 +24,16 @@ std::shared_ptr<Environment> require_environment(const EnvironmentLibrary& libra
 }  // namespace
 
 Rooms::Rooms(const SceneLibrary& scenes,
-             const EnvironmentLibrary& environments,
+             const Libraries& libraries,
              RoomThreads threads,
              Metrics& metrics,
              RoomsOptions options)
     : scenes_(scenes),
-      environments_(environments),
+      libraries_(libraries),
       threads_(threads),
       metrics_(metrics),
       options_(std::move(options)),
-      first_environment_(require_environment(environments, options_.environment)),
+      first_environment_(require_environment(libraries.environments, options_.environment)),
       by_address_(options_.rooms_per_address) {}
 
 std::variant<Rooms::Entered, Rooms::Refusal> Rooms::enter(
@@ -93,10 +93,11 @@ std::variant<std::shared_ptr<Room>, Rooms::Refusal> Rooms::room_locked(
         return Refusal{.code = wire::CloseCode::too_many_rooms, .expected = {}};
     }
     spdlog::info("room_opened room={} scene={}", name, served->name);
-    const std::shared_ptr<Environment> first = environments_.find(options_.environment);
+    const std::shared_ptr<Environment> first =
+        libraries_.environments.find(options_.environment);
     auto room =
         std::make_shared<Room>(name, std::move(served), first ? first : first_environment_,
-                               environments_, threads_, metrics_, options_.room);
+                               libraries_, threads_, metrics_, options_.room);
     rooms_.emplace(name, Entry{.room = room, .creator = address, .place = std::move(place)});
     metrics_.set_rooms(rooms_.size());
     return room;

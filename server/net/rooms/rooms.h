@@ -35,7 +35,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
   public:
     // Throws std::runtime_error if the library has no environment of that name.
     Rooms(const SceneLibrary& scenes,
-          const EnvironmentLibrary& environments,
+          const Libraries& libraries,
           RoomThreads threads,
           Metrics& metrics,
           RoomsOptions options);
@@ -98,7 +98,7 @@ class Rooms : public WorkItem, public std::enable_shared_from_this<Rooms> {
     [[nodiscard]] bool is_outdated(const Room& room) const;
 
     const SceneLibrary& scenes_;
-    const EnvironmentLibrary& environments_;
+    const Libraries libraries_;
     const RoomThreads threads_;
     Metrics& metrics_;
     const RoomsOptions options_;

@@ -49,10 +49,18 @@ class DrawnSurface {
         return first_terms_[vertex];
     }
     [[nodiscard]] std::size_t term_count() const { return term_count_; }
+    // Behind all terms: the place of what a vertex sends where that is given.
+    [[nodiscard]] std::uint32_t given_term(std::uint32_t vertex) const {
+        return static_cast<std::uint32_t>(term_count_) + vertex;
+    }
     [[nodiscard]] const transport::VertexClusters& clusters() const { return clusters_; }
     // That a vertex is of.
     [[nodiscard]] std::uint32_t cluster(std::uint32_t vertex) const {
         return clusters_of_vertices_[vertex];
+    }
+    // The number of a vertex's material.
+    [[nodiscard]] std::uint32_t material_of(std::uint32_t vertex) const {
+        return clusters_.clusters()[cluster(vertex)].material;
     }
     // The most that one vertex has.
     [[nodiscard]] std::uint32_t most_terms() const { return most_terms_; }

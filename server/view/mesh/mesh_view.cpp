@@ -1,6 +1,7 @@
 #include "server/view/mesh/mesh_view.h"
 
 #include "server/view/mesh/pinhole_from_look.h"
+#include "server/view/mesh/seen_vertices.h"
 #include "server/view/mesh/tile_pixels.h"
 
 #include <tbb/parallel_for.h>
@@ -31,8 +32,12 @@ std::size_t bytes_of_pixel(const DrawnSurface& surface) {
 MeshView::MeshView(std::shared_ptr<const DrawnSurface> surface,
                    VertexRadiance radiance,
                    const transport::FrameRecord& frame,
-                   const Look& beginning)
-    : surface_(std::move(surface)), frame_(frame), radiance_(std::move(radiance)) {
+                   const Look& beginning,
+                   const GivenRadiance* given)
+    : surface_(std::move(surface)),
+      frame_(frame),
+      radiance_(std::move(radiance)),
+      given_(given) {
     look(beginning);
 }
 
@@ -46,8 +51,7 @@ bool MeshView::look(const Look& look) {
     camera_ = record_from(pinhole_);
     visible_.look(surface_->mesh(), pinhole_, look.width, look.height, &surface_->holes());
     is_closer_ = false;
-    images_ = 0;
-    kept_.clear();
+    forget_terms();
     return true;
 }
 
@@ -57,9 +61,18 @@ bool MeshView::look_closer() {
     }
     visible_.look_at_edges(surface_->mesh());
     is_closer_ = true;
+    forget_terms();
+    return true;
+}
+
+void MeshView::forget_terms() {
     images_ = 0;
     kept_.clear();
-    return true;
+}
+
+SeenVertices MeshView::seen_vertices() const {
+    return given_ == nullptr ? SeenVertices{}
+                             : view::seen_vertices(*surface_, visible_, *given_);
 }
 
 void MeshView::write_coverage(std::span<float> coverage) const {
@@ -80,8 +93,22 @@ void MeshView::begin_image(std::span<const float> sums) {
         radiance_.take(sums);
         radiance_is_stale_ = false;
     }
+    if (given_ != nullptr) {
+        take_given_radiance();
+    }
     if (++images_ == 2) {
         keep_terms();
+    }
+}
+
+void MeshView::take_given_radiance() {
+    if (given_->materials_version() != given_materials_) {
+        given_materials_ = given_->materials_version();
+        forget_terms();
+    }
+    if (given_->radiance_version() != given_radiance_) {
+        given_radiance_ = given_->radiance_version();
+        radiance_.take_given(*given_);
     }
 }
 
@@ -93,7 +120,8 @@ void MeshView::keep_terms() {
     }
     kept_.resize(image_.block_count());
     tbb::parallel_for(std::uint32_t{0}, image_.block_count(), [&](std::uint32_t tile) {
-        make_tile_terms(*surface_, visible_, pinhole_, pixels_of_tile(tile), kept_[tile]);
+        make_tile_terms(*surface_, visible_, pinhole_, pixels_of_tile(tile), given_,
+                        kept_[tile]);
     });
 }
 
@@ -112,7 +140,7 @@ void MeshView::write_tiles(std::span<const float> /*sums*/,
         const std::uint32_t tile = tiles.row * image_.tiles_x() + x;
         const PixelRect pixels = pixels_of_tile(tile);
         if (kept_.empty()) {
-            make_tile_terms(*surface_, visible_, pinhole_, pixels, made);
+            make_tile_terms(*surface_, visible_, pinhole_, pixels, given_, made);
         }
         write_tile_pixels(kept_.empty() ? made : kept_[tile], radiance_.values(), pixels.width,
                           std::size_t{3} * all.width,

@@ -4,6 +4,7 @@
 #include "protocol/transport/mesh_section.h"
 #include "server/view/mesh/block_weights.h"
 #include "server/view/mesh/drawn_surface.h"
+#include "server/view/mesh/given_radiance.h"
 #include "server/view/mesh/tile_terms.h"
 #include "server/view/mesh/vertex_radiance.h"
 #include "server/view/mesh/visible_surface.h"
@@ -24,11 +25,13 @@ class MeshView final : public View {
   public:
     static constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
 
-    // `radiance`: of no sums yet. `frame` says where in the world the surface is.
+    // `radiance`: of no sums yet. `frame` says where in the world the surface is. `given`, if
+    // there is one, outlives the view.
     MeshView(std::shared_ptr<const DrawnSurface> surface,
              VertexRadiance radiance,
              const transport::FrameRecord& frame,
-             const Look& beginning);
+             const Look& beginning,
+             const GivenRadiance* given = nullptr);
 
     bool look(const Look& look) override;
     bool look_closer() override;
@@ -38,8 +41,9 @@ class MeshView final : public View {
     void write_coverage(std::span<float> coverage) const override;
 
     [[nodiscard]] std::vector<float> block_weights() const override {
-        return view::block_weights(*surface_, visible_);
+        return view::block_weights(*surface_, visible_, given_);
     }
+    [[nodiscard]] SeenVertices seen_vertices() const override;
     void sums_have_changed() override { radiance_is_stale_ = true; }
     void begin_image(std::span<const float> sums) override;
     void write_tiles(std::span<const float> sums,
@@ -51,13 +55,18 @@ class MeshView final : public View {
     [[nodiscard]] const VertexRadiance& radiance() const { return radiance_; }
 
   private:
+    void forget_terms();
     void keep_terms();
+    void take_given_radiance();
     [[nodiscard]] PixelRect pixels_of_tile(std::uint32_t tile) const;
 
     const std::shared_ptr<const DrawnSurface> surface_;
     const transport::FrameRecord frame_;
     VertexRadiance radiance_;
     bool radiance_is_stale_ = true;
+    const GivenRadiance* const given_;
+    std::uint64_t given_materials_ = 0;  // the version that terms were made for
+    std::uint64_t given_radiance_ = 0;   // the version that is in the radiance
     Look look_;
     Pinhole pinhole_;
     transport::TileGrid image_;

@@ -4,6 +4,7 @@
 #include "server/view/mesh/vertex_radiance.h"
 
 #include <algorithm>
+#include <array>
 
 namespace relume::view {
 namespace {
@@ -22,8 +23,11 @@ struct Workspace {
     ShadedPoints shaded;
 };
 
+constexpr std::array<float, VertexRadiance::kFloatsPerTerm> kAllOfIt{1, 1, 1, 0};
+
 void add_pixel(const DrawnSurface& surface,
                const VisibleSurface& visible,
+               const GivenRadiance* given,
                std::uint32_t x,
                std::uint32_t y,
                Workspace& work,
@@ -37,6 +41,19 @@ void add_pixel(const DrawnSurface& surface,
         }
         const transport::SurfaceTriangle& triangle = surface.mesh().triangles[point.triangle];
         const std::uint32_t material = triangle.material;
+        const auto& [first, second, third] = triangle.vertices;
+        const std::array shares{1 - point.weight_1 - point.weight_2, point.weight_1,
+                                point.weight_2};
+        ++pixel.points;
+        if (given != nullptr && given->is_given(material)) {
+            terms.points.push_back({.first_terms = {surface.given_term(first),
+                                                    surface.given_term(second),
+                                                    surface.given_term(third)},
+                                    .shares = shares,
+                                    .terms = 1});
+            terms.weights.insert(terms.weights.end(), kAllOfIt.begin(), kAllOfIt.end());
+            continue;
+        }
         if (std::find(work.materials.begin(), work.materials.end(), material) ==
             work.materials.end()) {
             work.materials.push_back(material);
@@ -49,14 +66,12 @@ void add_pixel(const DrawnSurface& surface,
              .first_weight = static_cast<std::uint32_t>(terms.weights.size())});
         const std::uint32_t term_count = surface.material(material).brdf->terms;
         terms.points.push_back(
-            {.first_terms = {surface.first_term(triangle.vertices[0]),
-                             surface.first_term(triangle.vertices[1]),
-                             surface.first_term(triangle.vertices[2])},
-             .shares = {1 - point.weight_1 - point.weight_2, point.weight_1, point.weight_2},
+            {.first_terms = {surface.first_term(first), surface.first_term(second),
+                             surface.first_term(third)},
+             .shares = shares,
              .terms = term_count});
         terms.weights.resize(terms.weights.size() +
                              std::size_t{VertexRadiance::kFloatsPerTerm} * term_count);
-        ++pixel.points;
     }
     terms.pixels.push_back(pixel);
 }
@@ -67,6 +82,7 @@ void make_tile_terms(const DrawnSurface& surface,
                      const VisibleSurface& visible,
                      const Pinhole& pinhole,
                      const PixelRect& pixels,
+                     const GivenRadiance* given,
                      TileTerms& terms) {
     thread_local Workspace work;
     work.places.clear();
@@ -76,7 +92,7 @@ void make_tile_terms(const DrawnSurface& surface,
     terms.weights.clear();
     for (std::uint32_t y = pixels.top; y < pixels.top + pixels.height; ++y) {
         for (std::uint32_t x = pixels.left; x < pixels.left + pixels.width; ++x) {
-            add_pixel(surface, visible, x, y, work, terms);
+            add_pixel(surface, visible, given, x, y, work, terms);
         }
     }
     const PixelRays rays(pinhole, visible.width(), visible.height());

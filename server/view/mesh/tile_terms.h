@@ -3,6 +3,7 @@
 
 #include "protocol/transport/format.h"
 #include "server/view/mesh/drawn_surface.h"
+#include "server/view/mesh/given_radiance.h"
 #include "server/view/mesh/pixel_space.h"
 #include "server/view/mesh/visible_surface.h"
 #include "server/view/tile_run.h"
@@ -39,12 +40,14 @@ struct TileTerms {
     std::vector<float> weights;
 };
 
-// Replaces the content of `terms` with that of the tile that has these pixels. A pure function;
-// may run on several threads.
+// Replaces the content of `terms` with that of the tile that has these pixels. Points of
+// materials that are `given` their radiance, if any is, have one term of weight 1. A pure
+// function; may run on several threads.
 void make_tile_terms(const DrawnSurface& surface,
                      const VisibleSurface& visible,
                      const Pinhole& pinhole,
                      const PixelRect& pixels,
+                     const GivenRadiance* given,
                      TileTerms& terms);
 
 }  // namespace relume::view

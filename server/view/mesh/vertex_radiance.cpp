@@ -21,12 +21,29 @@ VertexRadiance::VertexRadiance(const transport::VertexClusters& clusters,
         first_values_.push_back(count);
         count += kFloatsPerTerm * cluster.vertices * cluster.terms;
     }
+    term_values_ = count;
     values_.assign(count, 0);
 }
 
 void VertexRadiance::take(std::span<const float> sums) {
     tbb::parallel_for(std::size_t{0}, first_values_.size(),
                       [&](std::size_t cluster) { take_cluster(sums, cluster); });
+}
+
+void VertexRadiance::take_given(const GivenRadiance& given) {
+    const auto radiance = given.radiance();
+    values_.resize(term_values_ + kFloatsPerTerm * radiance.size());
+    tbb::parallel_for(std::size_t{0}, first_values_.size(), [&](std::size_t cluster) {
+        if (!given.is_given(clusters_.clusters()[cluster].material)) {
+            return;
+        }
+        const std::uint32_t first = clusters_.first_vertex(cluster);
+        for (std::uint32_t vertex = first; vertex < clusters_.first_vertex(cluster + 1);
+             ++vertex) {
+            std::copy(radiance[vertex].begin(), radiance[vertex].end(),
+                      &values_[term_values_ + kFloatsPerTerm * vertex]);
+        }
+    });
 }
 
 void VertexRadiance::take_cluster(std::span<const float> sums, std::size_t cluster) {

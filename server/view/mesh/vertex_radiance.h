@@ -3,6 +3,7 @@
 
 #include "protocol/transport/block_basis.h"
 #include "protocol/transport/vertex_clusters.h"
+#include "server/view/mesh/given_radiance.h"
 
 #include <cstddef>
 #include <span>
@@ -10,7 +11,8 @@
 
 namespace relume::view {
 
-// Red, green, blue and a 0 for every term of every vertex (DrawnSurface::first_term). This is
+// Red, green, blue and a 0 for every term of every vertex (DrawnSurface::first_term), and
+// behind all terms, where radiance is given, of every vertex (DrawnSurface::given_term). This is
 // all of the light that a client needs which draws the mesh by itself.
 //
 // Not thread-safe, but for what is const.
@@ -26,6 +28,8 @@ class VertexRadiance {
     // From sums, [blocks][3][256], in the basis of the blocks and before tint. Spread over the
     // caller's arena.
     void take(std::span<const float> sums);
+    // In place of what was given before.
+    void take_given(const GivenRadiance& given);
     [[nodiscard]] std::span<const float> values() const { return values_; }
 
   private:
@@ -35,6 +39,7 @@ class VertexRadiance {
     transport::BlockBasis basis_;
     std::span<const float> tint_;
     std::vector<std::size_t> first_values_;  // of every cluster
+    std::size_t term_values_ = 0;            // of all terms
     std::vector<float> values_;
 };
 

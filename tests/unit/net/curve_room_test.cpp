@@ -33,7 +33,7 @@ class CurveRoom : public testing::Test {
     }
 
     void show(wire::Stages stages) {
-        EXPECT_TRUE(relighter_->set_state(state_, {}, stages).empty());
+        EXPECT_TRUE(relighter_->set_state(state_, {}, {}, stages).empty());
     }
     void edit(const json& materials) {
         const json patch = with_samples({{"materials", materials}}, state_.materials,

@@ -31,10 +31,11 @@ class DocumentTest : public testing::Test {
         document_.emplace(kScene, library_.find("map"));
     }
     DocumentChange edit(ViewerId author, const json& patch, std::uint64_t id = 1) {
-        return document_->edit(author, {.id = id, .patch = patch}, {}, library_);
+        return document_->edit(author, {.id = id, .patch = patch}, {}, {library_, materials_});
     }
 
     EnvironmentLibrary library_{EnvironmentBounds{}};
+    MaterialLibrary materials_{0};
     std::optional<Document> document_;
 };
 

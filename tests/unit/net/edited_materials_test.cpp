@@ -57,7 +57,7 @@ class Room {
 
   private:
     void show(wire::Stages stages) {
-        EXPECT_TRUE(relighter_.set_state(state_, {}, stages).empty());
+        EXPECT_TRUE(relighter_.set_state(state_, {}, {}, stages).empty());
     }
 
     std::shared_ptr<const ServedScene> scene_;

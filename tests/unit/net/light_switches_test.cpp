@@ -54,7 +54,7 @@ class LightSwitches : public testing::Test {
         EXPECT_TRUE(
             relighter
                 .set_state(state, {.environment = environments_.find("grey"), .blend = nullptr},
-                           kAllStages)
+                           {}, kAllStages)
                 .empty());
         Relighter* const self = &relighter;
         while (!relighter.at_rest()) {

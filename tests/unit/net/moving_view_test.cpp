@@ -45,7 +45,7 @@ class MovingViewTest : public testing::Test {
     void give_state(Relighter& relighter, wire::Stages stages) {
         EXPECT_TRUE(relighter
                         .set_state(state_,
-                                   {.environment = environments_.find("grey"), .blend = {}},
+                                   {.environment = environments_.find("grey"), .blend = {}}, {},
                                    stages)
                         .empty());
     }

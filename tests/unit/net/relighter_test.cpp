@@ -41,7 +41,7 @@ class RelighterTest : public testing::Test {
         EXPECT_TRUE(relighter_
                         ->set_state(state_,
                                     {.environment = environments_.find("grey"), .blend = {}},
-                                    stages)
+                                    {}, stages)
                         .empty());
     }
     void edit(const json& patch) { edit(patch, wire::stages_of(patch)); }

@@ -29,8 +29,8 @@ void Seat::edit(const nlohmann::json& patch, std::uint64_t id) const {
 RoomFixture::RoomFixture() {
     scenes_.refresh(folder_.path());
     environments_.add_upload("map", half_bright_map());
-    rooms_ = std::make_shared<Rooms>(scenes_, environments_, RoomThreads{workers_, encoders_},
-                                     metrics_, options());
+    rooms_ = std::make_shared<Rooms>(scenes_, Libraries{environments_, materials_},
+                                     RoomThreads{workers_, encoders_}, metrics_, options());
 }
 
 RoomFixture::~RoomFixture() {

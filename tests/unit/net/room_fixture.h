@@ -53,6 +53,7 @@ class RoomFixture : public testing::Test {
     Metrics metrics_;
     SceneLibrary scenes_;
     EnvironmentLibrary environments_{EnvironmentBounds{}};
+    MaterialLibrary materials_{0};
     WorkerPool workers_{2, {.edits = 1, .refinements = 16}};
     WorkerPool encoders_{2, {}};
     std::shared_ptr<Rooms> rooms_;

@@ -154,8 +154,9 @@ TEST_F(RoomImagesTest, ADisplayOrPolicyEditLeavesTheSettledImageBitForBit) {
 TEST_F(RoomImagesTest, ADisplayEditIsShownInAJpegWithoutRelighting) {
     RoomsOptions restless = options();
     restless.room.settle_delay = std::chrono::hours(1);
-    const auto rooms = std::make_shared<Rooms>(
-        scenes_, environments_, RoomThreads{workers_, encoders_}, metrics_, restless);
+    const auto rooms =
+        std::make_shared<Rooms>(scenes_, Libraries{environments_, materials_},
+                                RoomThreads{workers_, encoders_}, metrics_, restless);
     const Seat viewer = enter(*rooms, ImageInterest::all, "r");
     const auto exact_jpeg = [&viewer](std::uint64_t revision) {
         SharedImageFrame found;
@@ -214,8 +215,9 @@ TEST_F(RoomImagesTest, ASmallerTargetErrorSettlesAnew) {
 TEST_F(RoomImagesTest, RoomsEditedTogetherShowWhatTheyWouldAlone) {
     RoomsOptions many = options();
     many.room.limits.rooms = 20;
-    const auto crowd = std::make_shared<Rooms>(
-        scenes_, environments_, RoomThreads{workers_, encoders_}, metrics_, many);
+    const auto crowd =
+        std::make_shared<Rooms>(scenes_, Libraries{environments_, materials_},
+                                RoomThreads{workers_, encoders_}, metrics_, many);
     const auto enter_and_edit = [&](const std::string& name, std::size_t i) {
         Seat seat = enter(*crowd, ImageInterest::settled, name);
         seat.edit({{"environment", {{"gain", 0.5 + 0.25 * static_cast<double>(i)}}},

@@ -29,8 +29,9 @@ TEST_F(RoomsTest, BoundsClientsAndRoomsAndNamesTheReason) {
 TEST_F(RoomsTest, OneAddressMayHoldAPartOfARoom) {
     RoomsOptions narrow = options();
     narrow.room.clients_per_address = 2;
-    const auto rooms = std::make_shared<Rooms>(
-        scenes_, environments_, RoomThreads{workers_, encoders_}, metrics_, narrow);
+    const auto rooms =
+        std::make_shared<Rooms>(scenes_, Libraries{environments_, materials_},
+                                RoomThreads{workers_, encoders_}, metrics_, narrow);
     const auto enter_from = [&](const std::string& address) {
         return rooms->enter("r", "tiny",
                             {.role = Role::editor, .outbox = outbox(), .address = address});

@@ -321,6 +321,33 @@ TEST(TripleSession, StatesItsErrorToAFifth) {
     EXPECT_GE(right, 95 * images / 100) << "of " << images;
 }
 
+// Between two steps of a family the tables are mixed; at either end it is that step, bit for
+// bit.
+TEST(TripleSession, FinishesBetweenTwoStepsAreTheirMixture) {
+    const auto rendered = [&](Finish finish) {
+        TripleSession session = scene().session();
+        light(session, random_light(3));
+        session.set_view({1, 2, 2}, scene().all);
+        for (std::uint32_t material = 0; material < kMaterials; ++material) {
+            session.set_material(material, finish);
+        }
+        while (session.advance_by(kVertices)) {
+        }
+        return std::vector(session.radiance().begin(), session.radiance().end());
+    };
+    const auto other = std::make_shared<const TexelMaterial>(random_field(2, 3, 2, 77));
+    const auto first = rendered(scene().glossy);
+    const auto second = rendered({other, scene().glossy->colours()});
+    EXPECT_EQ(rendered({scene().glossy, other, 0}), first);
+    const auto between = rendered({scene().glossy, other, 0.25F});
+    for (std::size_t v = 0; v < first.size(); ++v) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(between[v][c], 0.75F * first[v][c] + 0.25F * second[v][c],
+                        1e-5F * (1 + std::abs(first[v][c]) + std::abs(second[v][c])));
+        }
+    }
+}
+
 template <typename Call>
 void expect_fault(const Call& call, const std::string& named) {
     try {
@@ -333,12 +360,14 @@ void expect_fault(const Call& call, const std::string& named) {
 
 TEST(TripleSession, RefusesWhatDoesNotFit) {
     TripleSession session = scene().session();
-    const auto other = std::make_shared<TexelMaterial>(random_field(1, 1, 1, 1, 8));
+    const auto other = std::make_shared<const TexelMaterial>(random_field(1, 1, 1, 1, 8));
     expect_fault([&] { session.set_material(0, other); }, "face resolution 8, expected 16");
-    expect_fault([&] { session.set_material(0, nullptr); }, "face resolution 0");
+    expect_fault([&] { static_cast<void>(Finish(nullptr)); }, "no material");
     expect_fault([&] { session.set_material(3, scene().diffuse); }, "material 3");
-    expect_fault([&] { session.set_material(0, scene().glossy, std::vector{Imath::V3f(1)}); },
+    expect_fault([&] { static_cast<void>(Finish(scene().glossy, std::vector{Imath::V3f(1)})); },
                  "1 colours, expected 2");
+    expect_fault([&] { static_cast<void>(Finish(scene().glossy, scene().diffuse, 0.5F)); },
+                 "two steps of one family");
     const std::vector<std::uint32_t> beyond{kVertices};
     expect_fault([&] { session.set_view({0, 0, 1}, beyond); }, "vertex 3000");
     const std::vector<float> few(5);

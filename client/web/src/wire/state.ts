@@ -99,6 +99,16 @@ export interface MaterialEdit {
     diffuse: Triple;
 }
 
+/** Materials given to parts of the scene, by the part's ID. */
+export interface Finish {
+    /** By its name in `/api/materials`. */
+    material: string;
+    /** Of a family of materials, such as the exponent of Phong. */
+    parameter?: number | null;
+    /** Of the material's lobes; without them they are its own. */
+    colours?: number[][] | null;
+}
+
 /** What shows behind the scene. */
 export interface BackgroundState {
     /** What it is: §3.2. */
@@ -159,6 +169,7 @@ export interface RoomState {
     rotation: RotationState;
     lights: { [id: string]: AreaLight };
     materials: { [id: string]: MaterialEdit };
+    finishes: { [id: string]: Finish };
     background: BackgroundState;
     camera: CameraState;
     image: ImageState;
@@ -176,6 +187,7 @@ export const kStages: { readonly [section in keyof RoomState]: Stage } = {
     rotation: "signal",
     lights: "signal",
     materials: "signal",
+    finishes: "signal",
     background: "view",
     camera: "view",
     image: "view",
@@ -189,6 +201,7 @@ export const kAbsent: { readonly [section in keyof RoomState]?: readonly string[
     blend: ["name"],
     lights: ["name"],
     materials: ["points", "shape"],
+    finishes: ["parameter", "colours"],
     budget: ["milliseconds", "coefficients"],
 };
 
@@ -220,6 +233,10 @@ export const kRanges = {
         value: { lowest: 0, highest: 1e6 },
         tint: { lowest: 0, highest: 1e4 },
         diffuse: { lowest: 0, highest: 1e4 },
+    },
+    finishes: {
+        parameter: { lowest: 0, highest: 1e5 },
+        colours: { lowest: 0, highest: 1e4 },
     },
     background: {
         colour: { lowest: 0, highest: 1e4 },
