@@ -107,7 +107,7 @@ MovingFigures move_scene(const SeenSurface& surface,
     figures.texel_bytes = static_cast<double>(material->byte_count());
     figures.surface_bytes = static_cast<double>(surface.lit()->byte_count());
     triple::TripleSession session(surface.lit());
-    session.set_material(0, material);
+    session.set_material(0, triple::Finish(material));
     Mover mover(surface, std::move(session), environment, images);
     figures.images_per_s_light_only = exact_images_per_second(
         mover, images, [&](std::uint32_t image) { mover.turn_light(image); });
