@@ -7,7 +7,7 @@
 namespace relume::bake {
 
 [[nodiscard]] constexpr std::string_view generator() {
-    return "relume-bake 0.4.3";
+    return "relume-bake 0.4.4";
 }
 
 }  // namespace relume::bake

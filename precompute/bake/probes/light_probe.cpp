@@ -7,7 +7,9 @@
 #include "protocol/transport/hash.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace relume::bake {
 namespace {
@@ -19,6 +21,22 @@ const JitterShift kNoShift{};
 
 // Of a row, the numbers that hold what the constant light makes, one for each term.
 constexpr std::size_t kConstants = brdf::FactoredBrdf::kMostTerms;
+
+// How far coefficients stray under natural light with lamps.
+std::vector<float> deviations_with_lamps(const basis::CubemapBasis& basis) {
+    std::vector<float> deviations = natural_deviations(basis);
+    for (const auto& [index, value] : basis.constant_light()) {
+        deviations[index] = LightProbe::kFaceDeviation * value;
+    }
+    const double natural =
+        std::inner_product(deviations.begin(), deviations.end(), deviations.begin(), 0.0);
+    const double lamps =
+        LightProbe::kLampVariance * natural / static_cast<double>(deviations.size());
+    for (float& deviation : deviations) {
+        deviation = static_cast<float>(std::sqrt(double{deviation} * deviation + lamps));
+    }
+    return deviations;
+}
 
 // A texel that the horizon cuts has its middle below it.
 constexpr float kJustAboveHorizon = 1e-4F;
@@ -49,10 +67,7 @@ LightProbe::LightProbe(const RayCaster& caster,
           basis::CubemapProjection::onto(basis::CubemapBasis::haar(options.face_resolution))),
       brdfs_(brdfs.begin(), brdfs.end()),
       constant_light_(projection_->basis().constant_light()),
-      deviations_(natural_deviations(projection_->basis())) {
-    for (const auto& [index, value] : constant_light_) {
-        deviations_[index] = kFaceDeviation * value;
-    }
+      deviations_(deviations_with_lamps(projection_->basis())) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         texel_direction_[axis].resize(texels_.size());
     }

@@ -23,17 +23,21 @@ namespace relume::bake {
 // Rows are those of the terms of the point's material, direct light alone, in the Haar basis of
 // a cubemap that may be coarser than the light: differences of bright and dark are seen long
 // before those of single texels. The light is natural (light_model.h), and the mean radiance of
-// each face strays by kFaceDeviation of it, as that of the sky and of the ground do. The mean
+// each face strays by kFaceDeviation of it, as that of the sky and of the ground do. Lamps and
+// a sun add noise that is alike in all coefficients and has kLampVariance times the variance of
+// the rest: photographed lights with lamps in them show sharp highlights and the edges of
+// shadows far brighter than natural light on average does. The mean
 // square of a term is then the square of what the constant light makes, plus the squares of all
 // coefficients times their deviations. Terms are scaled so that their squares add up to that of
 // the image (factored_brdf.h), and so a bright material weighs more than a dark one.
 //
 // The coefficients of all terms are added up into a few numbers with random signs [Charikar02].
-// Lengths of rows and of their differences are kept within a few per cent.
+// Squared lengths of rows and of their differences are kept within an eighth, as a rule.
 class LightProbe final : public SurfaceProbe {
   public:
     static constexpr std::size_t kNumbers = 128;
     static constexpr float kFaceDeviation = 0.5F;
+    static constexpr float kLampVariance = 40;
     struct Options {
         std::uint32_t face_resolution = 16;  // of the cubemap, as in basis/cubemap.h
         std::uint32_t edge_samples = 4;      // further rays for a texel at a shadow's edge

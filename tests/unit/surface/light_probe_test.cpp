@@ -65,9 +65,9 @@ TEST(LightProbe, WhatSeesNothingIsDark) {
     EXPECT_EQ(squared_length(row_of(LightProbe(caster, white(), {}), floor_point(0, 0))), 0);
 }
 
-// The mean square over a thousand natural lights, whose faces' means stray, is the squared
-// length of the row, and the same of the difference of two.
-TEST(LightProbe, LengthsAreThoseUnderNaturalLight) {
+// The mean square over a thousand natural lights with lamps, whose faces' means stray, is the
+// squared length of the row, and the same of the difference of two.
+TEST(LightProbe, LengthsAreThoseUnderNaturalLightWithLamps) {
     const scene::Scene scene = floor_and_box(8, {0, 1, 0}, {1, 0.2F, 1});
     const RayCaster caster(scene);
     const LightProbe probe(caster, white(), {.face_resolution = 8, .edge_samples = 0});
@@ -95,6 +95,16 @@ TEST(LightProbe, LengthsAreThoseUnderNaturalLight) {
     const auto near_row = coefficients_of(shaded);
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
+    double natural = 0;
+    const std::vector<float> strays = natural_deviations(projection->basis());
+    for (const float stray : strays) {
+        natural += double{stray} * stray;
+    }
+    for (const auto& [index, value] : projection->basis().constant_light()) {
+        natural += std::pow(double{LightProbe::kFaceDeviation} * value, 2);
+    }
+    const auto lamp = static_cast<float>(
+        std::sqrt(LightProbe::kLampVariance * natural / static_cast<double>(strays.size())));
     double lit2 = 0;
     double off2 = 0;
     constexpr std::uint64_t kLights = 1000;
@@ -102,6 +112,9 @@ TEST(LightProbe, LengthsAreThoseUnderNaturalLight) {
         auto light = natural_light(projection->basis(), seed);
         for (const auto& [index, value] : projection->basis().constant_light()) {
             light[index] += LightProbe::kFaceDeviation * value * normal(random);
+        }
+        for (float& coefficient : light) {
+            coefficient += lamp * normal(random);
         }
         const double a = std::inner_product(light.begin(), light.end(), far_row.begin(), 0.0);
         const double b = std::inner_product(light.begin(), light.end(), near_row.begin(), 0.0);

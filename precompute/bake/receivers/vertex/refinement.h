@@ -4,8 +4,8 @@
 // compared with what its corners make of it. The integral of the squared difference, by a rule
 // that is exact for cubics, is the triangle's error: it weighs as much as the area that it
 // fills in images from all sides. The triangles with the largest errors are cut at their
-// longest edges, round after round, until the error of the whole is small enough or the
-// vertices are as many as may be.
+// longest edges (split_mesh.h), round after round, until the error of the whole is small
+// enough or the vertices are as many as may be.
 #pragma once
 
 #include "precompute/bake/receivers/vertex/refined_surface.h"

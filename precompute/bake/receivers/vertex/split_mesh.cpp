@@ -1,5 +1,7 @@
 #include "precompute/bake/receivers/vertex/split_mesh.h"
 
+#include <Imath/ImathBox.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -25,6 +27,12 @@ Imath::V2f middle_of(const SplitMesh::Triangle& triangle, std::size_t corner) {
 
 SplitMesh::SplitMesh(StartSurface start)
     : start_(std::move(start)), points_(start_.points), vertices_(start_.vertices) {
+    constexpr double kTurn = 0.1;  // of the surface's diagonal
+    Imath::Box3d bounds;
+    for (const Imath::V3f& point : points_) {
+        bounds.extendBy(Imath::V3d(point));
+    }
+    turn_length_ = points_.empty() ? 0 : kTurn * bounds.size().length();
     join_start();
 }
 
@@ -77,8 +85,12 @@ std::uint32_t SplitMesh::add_chord(std::uint32_t edge,
                                    std::uint32_t vertex,
                                    std::uint32_t other) {
     chords_.push_back({.vertices = {vertex, other}, .edge = edge});
-    edges_[edge].chords.push_back(static_cast<std::uint32_t>(chords_.size() - 1));
-    return edges_[edge].chords.back();
+    Edge& of = edges_[edge];
+    of.chords.push_back(static_cast<std::uint32_t>(chords_.size() - 1));
+    const Imath::V3d turn =
+        Imath::V3d(vertices_[other].normal) - Imath::V3d(vertices_[vertex].normal);
+    of.turn2 = std::max(of.turn2, turn_length_ * turn_length_ * turn.length2());
+    return of.chords.back();
 }
 
 std::uint32_t SplitMesh::chord_of(std::uint32_t edge,
@@ -96,7 +108,10 @@ std::uint32_t SplitMesh::chord_of(std::uint32_t edge,
 }
 
 bool SplitMesh::is_longer(std::uint32_t edge, std::uint32_t other) const {
-    return std::pair(edges_[edge].length2, edge) > std::pair(edges_[other].length2, other);
+    const auto length2 = [this](std::uint32_t i) {
+        return edges_[i].length2 + edges_[i].turn2;
+    };
+    return std::pair(length2(edge), edge) > std::pair(length2(other), other);
 }
 
 std::uint32_t SplitMesh::longest_edge(std::uint32_t triangle) const {

@@ -4,6 +4,10 @@
 // all triangles of an edge that more than two share. An edge is split only where it is the
 // longest of every triangle at it. Then the angles of triangles stay bounded away from zero
 // however often they are split [Rivara84], and no vertex ever lies inside another's edge.
+//
+// An edge along which the normal turns is long: lengths are those of positions and normals
+// together, in six dimensions [Levy12]. Between the rings of a thin tube highlights pass, and
+// its triangles are split around the tube before they are along it.
 #pragma once
 
 #include "precompute/bake/receivers/vertex/start_surface.h"
@@ -34,7 +38,8 @@ class SplitMesh {
     };
     struct Edge {
         std::array<std::uint32_t, 2> points{};
-        double length2 = 0;
+        double length2 = 0;  // between its points
+        double turn2 = 0;    // of the chord along which the normal turns most, as a length
         std::vector<std::uint32_t> triangles;
         std::vector<std::uint32_t> chords;
     };
@@ -114,6 +119,7 @@ class SplitMesh {
     std::vector<Triangle> triangles_;
     std::vector<Chord> chords_;
     std::vector<Edge> edges_;
+    double turn_length_ = 0;  // what a change of the normal by one is as a length
 };
 
 }  // namespace relume::bake
