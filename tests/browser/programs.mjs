@@ -47,6 +47,8 @@ export class Server {
             [
                 "--scenes",
                 setting("STUDIO_SCENES"),
+                "--materials",
+                `${setting("STUDIO_SCENES")}/materials`,
                 "--listen",
                 `127.0.0.1:${this.port}`,
                 "--web-root",

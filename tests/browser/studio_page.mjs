@@ -117,17 +117,19 @@ export class StudioPage {
     }
 
     /** Drags on the image by (dx, dy) pixels in `steps` moves. */
-    async drag(dx, dy, { steps = 12, shift = false } = {}) {
+    async drag(dx, dy, { steps = 12, shift = false, alt = false } = {}) {
         const { mouse, keyboard } = this.page;
         const box = await this.page.locator("#image-frame").boundingBox();
         const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
         if (shift) await keyboard.down("Shift");
+        if (alt) await keyboard.down("Alt");
         await mouse.move(x, y);
         await mouse.down();
         for (let i = 1; i <= steps; ++i)
             await mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
         await mouse.up();
         if (shift) await keyboard.up("Shift");
+        if (alt) await keyboard.up("Alt");
     }
 
     /** `{header, rgb, pixels, display}`: the settled image, linear, and the canvas as it is. */

@@ -1,7 +1,7 @@
 /** The server's HTTP side [protocol/README.md §3]. */
 import { isObject } from "./wire/merge_patch";
 import { refusalFromJson, type SceneSummary, titleOf } from "./wire/message";
-import type { Json, JsonObject } from "./wire/state";
+import type { Json, JsonObject, Triple } from "./wire/state";
 
 export interface SceneEntry extends SceneSummary {
     bytes: number;
@@ -14,6 +14,18 @@ export interface EnvironmentEntry {
     height: number;
     /** Another number for another map of the same name. */
     version?: number;
+}
+
+/** What parts of scenes can be given: one material, or a family that differs in one number. */
+export interface OfferedMaterial {
+    name: string;
+    face_resolution: number;
+    /** Of its lobes. */
+    colours: Triple[];
+    /** Of a family: what its number is. */
+    parameter?: "exponent" | "roughness";
+    /** Of a family: the numbers that it has tables of, ascending. */
+    steps?: number[];
 }
 
 export interface UploadResult {
@@ -51,6 +63,11 @@ export class Api {
     async environments(): Promise<EnvironmentEntry[]> {
         const json = await this.request("/api/environments");
         return json["environments"] as unknown as EnvironmentEntry[];
+    }
+
+    async materials(): Promise<OfferedMaterial[]> {
+        const json = await this.request("/api/materials");
+        return json["materials"] as unknown as OfferedMaterial[];
     }
 
     thumbnailAddress(scene: string): string {

@@ -78,7 +78,7 @@ export class LightReturn {
         );
     }
 
-    /** What the scene takes edits of: materials of the one, light of the other. */
+    /** What the scene takes edits of. */
     private taken(lighting: Lighting): Lighting {
         const sections = Object.keys(lighting) as (keyof RoomState)[];
         const kept = sections.filter((key) => this.connection.takes(key));

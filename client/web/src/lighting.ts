@@ -101,8 +101,8 @@ export function patchToLighting(from: RoomState, to: Lighting): JsonObject {
         const section = to[key] as JsonObject | undefined;
         if (section === undefined) continue;
         const absent = Object.fromEntries((kAbsent[key] ?? []).map((field) => [field, null]));
-        if (key === "lights" || key === "materials") {
-            const gone = Object.keys(from[key]).filter((id) => !(id in section));
+        if (key === "lights" || key === "materials" || key === "finishes") {
+            const gone = Object.keys(from[key] ?? {}).filter((id) => !(id in section));
             const there = Object.entries(section as { [id: string]: JsonObject });
             patch[key] = Object.fromEntries<Json>([
                 ...gone.map((id): [string, null] => [id, null]),

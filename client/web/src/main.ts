@@ -42,7 +42,7 @@ const kGestures: Gesture[] = [
 
 function shortcutsOf(studio: Studio): Shortcut[] {
     const { connection, exposure, lights, environments, downloads, zoom, camera } = studio;
-    const { materials, materialPanel } = studio;
+    const { materials, materialPanel, finishes } = studio;
     const { editor } = materialPanel;
     const inMaterials = (run: () => void) => (): void => {
         if (connection.takes("materials") && materials.selected !== null) run();
@@ -134,14 +134,14 @@ function shortcutsOf(studio: Studio): Shortcut[] {
         {
             keys: ["z"],
             withControl: true,
-            words: "undo the last edit of a material",
-            run: inMaterials(() => materials.history.undo()),
+            words: "undo the last edit of a material or a finish",
+            run: () => (finishes.isTaken ? finishes : materials).history.undo(),
         },
         {
             keys: ["Z", "y"],
             withControl: true,
             words: "redo it",
-            run: inMaterials(() => materials.history.redo()),
+            run: () => (finishes.isTaken ? finishes : materials).history.redo(),
         },
         {
             keys: ["d", "D"],

@@ -1,6 +1,6 @@
 /** Edits of the scene's materials, which of them is selected on this page, and the way back. */
 import { type Stroke, withStroke } from "./curve_stroke";
-import { MaterialHistory } from "./material_history";
+import { EditHistory } from "./edit_history";
 import type { RoomConnection } from "./room_connection";
 import { Signal } from "./signal";
 import type { EditableMaterial } from "./wire/message";
@@ -41,7 +41,7 @@ export function entryOf(edit: MaterialEdit | null): JsonObject | null {
 
 export class Materials {
     readonly selectionChanged = new Signal<EditableMaterial | null>();
-    readonly history = new MaterialHistory(
+    readonly history = new EditHistory<MaterialEdit>(
         (id) => this.stateOf(id),
         (id, edit) => this.connection.edit({ materials: { [id]: entryOf(edit) } }),
     );

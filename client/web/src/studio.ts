@@ -11,6 +11,8 @@ import { EnvironmentList } from "./environment_list";
 import { EnvironmentPanel } from "./environment_panel";
 import { ErrorPlot } from "./error_plot";
 import { Exposure } from "./exposure";
+import { FinishPanel } from "./finish_panel";
+import { Finishes } from "./finishes";
 import { ImageDecoder } from "./image_decoder";
 import { listenOnImage } from "./image_drag";
 import { ImageView } from "./image_view";
@@ -53,6 +55,7 @@ export class Studio {
     readonly camera: CameraPanel;
     readonly materials: Materials;
     readonly materialPanel: MaterialPanel;
+    readonly finishes: Finishes;
     private readonly decoder: ImageDecoder;
     private readonly readouts: Readouts;
     private readonly timer = new EditTimer();
@@ -124,6 +127,8 @@ export class Studio {
             this.materials,
         );
         new MaterialPicker(byId("image-frame"), api, connection, this.materials);
+        this.finishes = new Finishes(connection);
+        new FinishPanel(byId("finishes-card"), connection, this.finishes);
         const uploads = new UploadStore(place.server);
         this.lightReturn = new LightReturn(connection, api, uploads, notices, () =>
             this.loadEnvironments(),
@@ -156,6 +161,15 @@ export class Studio {
         } catch (error) {
             const title = error instanceof Error ? error.message : String(error);
             this.notices.show({ tone: "error", title: `Environments: ${title}` });
+        }
+    }
+
+    private async loadMaterials(): Promise<void> {
+        try {
+            this.finishes.setOffer(await this.api.materials());
+        } catch (error) {
+            const title = error instanceof Error ? error.message : String(error);
+            this.notices.show({ tone: "error", title: `Materials: ${title}` });
         }
     }
 
@@ -207,6 +221,7 @@ export class Studio {
             setText(byId("room-name"), room);
             document.title = `${scene.name} – Relume`;
             void this.loadEnvironments();
+            if (this.finishes.isTaken) void this.loadMaterials();
             if (forgotten !== null) this.lightReturn.offer(wholeLightingOf(forgotten));
         });
         connection.stateChanged.listen((state) => {
@@ -257,6 +272,7 @@ export class Studio {
         const light = this.connection.takes("environment");
         document.body.classList.toggle("edits-materials", materials && !light);
         byId("materials-card").hidden = !materials;
+        byId("finishes-card").hidden = !this.finishes.isTaken;
         for (const id of ["environment-panel", "light-card"]) {
             byId(id).hidden = !light;
         }

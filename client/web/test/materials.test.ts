@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { lightingOf, patchToLighting } from "../src/lighting";
-import { MaterialHistory } from "../src/material_history";
+import { EditHistory } from "../src/edit_history";
 import { entryOf, materialOf } from "../src/materials";
 import { composePatches } from "../src/wire/merge_patch";
 import { type EditableMaterial, messageFromText, WireError } from "../src/wire/message";
@@ -71,9 +71,9 @@ describe("a material", () => {
 });
 
 describe("the history", () => {
-    function room(): { history: MaterialHistory; put: (value: number | null) => void; now: () => Json } {
+    function room(): { history: EditHistory<MaterialEdit>; put: (value: number | null) => void; now: () => Json } {
         let now: MaterialEdit | null = null;
-        const history = new MaterialHistory(
+        const history = new EditHistory<MaterialEdit>(
             () => now,
             (_id, edit) => (now = edit),
         );

@@ -9,6 +9,7 @@ export function stateWith(change: Partial<RoomState> = {}): RoomState {
         rotation: { quaternion: [1, 0, 0, 0] },
         lights: {},
         materials: {},
+        finishes: {},
         background: { mode: "environment", colour: [0, 0, 0] },
         camera: { eye: [0, 0, 0], look_at: [0, 0, -1], up: [0, 1, 0], fov_degrees: 40 },
         image: { width: 512, height: 512 },

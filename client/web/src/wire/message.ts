@@ -33,6 +33,14 @@ export interface EditableMaterial {
     baked: MaterialEdit;
 }
 
+/** A part of a scene that may be given another material. */
+export interface ScenePart {
+    /** Its key in the state's section `finishes`. */
+    id: string;
+    /** Of its material, in the scene's file. */
+    name: string;
+}
+
 export interface SceneSummary {
     name: string;
     width: number;
@@ -46,6 +54,10 @@ export interface SceneSummary {
     bounds?: SceneBounds;
     /** Of kind `curves`. */
     materials?: EditableMaterial[];
+    /** Texels along a face of what the vertices see of the light, where they know it. */
+    visibility_resolution?: number;
+    /** Where vertices know what they see. */
+    parts?: ScenePart[];
     /** The sections of the state that take edits. */
     edits?: string[];
 }
@@ -180,6 +192,13 @@ function materialFromJson(json: Json): EditableMaterial {
     };
 }
 
+function partFromJson(json: Json): ScenePart {
+    if (!isObject(json)) {
+        throw new WireError(`a part is ${JSON.stringify(json)}, expected an object`);
+    }
+    return { id: textAt(json, "id"), name: textAt(json, "name") };
+}
+
 /** What an older server does not say is left out. */
 function sceneFromJson(json: JsonObject): SceneSummary {
     const scene: SceneSummary = {
@@ -205,6 +224,9 @@ function sceneFromJson(json: JsonObject): SceneSummary {
         };
     }
     if (Array.isArray(materials)) scene.materials = materials.map(materialFromJson);
+    const { parts, visibility_resolution: resolution } = json;
+    if (Array.isArray(parts)) scene.parts = parts.map(partFromJson);
+    if (typeof resolution === "number") scene.visibility_resolution = resolution;
     if (Array.isArray(edits)) {
         scene.edits = edits.filter((section): section is string => typeof section === "string");
     }

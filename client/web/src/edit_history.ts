@@ -1,27 +1,26 @@
 /**
- * The way back through this page's edits of materials. A drag is one step. Undoing is an edit like
- * any other, so that everybody in the room sees it.
+ * The way back through this page's edits of entries of one section: materials, or finishes. A drag
+ * is one step. Undoing is an edit like any other, so that everybody in the room sees it.
  */
 import { Signal } from "./signal";
-import type { MaterialEdit } from "./wire/state";
 
 /** null is as baked. */
-interface Step {
+interface Step<Entry> {
     id: string;
-    edit: MaterialEdit | null;
+    edit: Entry | null;
 }
 
 const kMostSteps = 100;
 
-export class MaterialHistory {
+export class EditHistory<Entry> {
     readonly changed = new Signal<void>();
-    private readonly past: Step[] = [];
-    private readonly future: Step[] = [];
+    private readonly past: Step<Entry>[] = [];
+    private readonly future: Step<Entry>[] = [];
     private isOpen = false;
 
     constructor(
-        private readonly now: (id: string) => MaterialEdit | null,
-        private readonly restore: (id: string, edit: MaterialEdit | null) => void,
+        private readonly now: (id: string) => Entry | null,
+        private readonly restore: (id: string, edit: Entry | null) => void,
     ) {}
 
     get canUndo(): boolean {
@@ -32,8 +31,8 @@ export class MaterialHistory {
         return this.future.length > 0;
     }
 
-    /** What a material was before the latest step; undefined where that was another's. */
-    before(id: string): MaterialEdit | null | undefined {
+    /** What an entry was before the latest step; undefined where that was another's. */
+    before(id: string): Entry | null | undefined {
         const latest = this.past[this.past.length - 1];
         return latest?.id === id ? latest.edit : undefined;
     }
@@ -67,7 +66,7 @@ export class MaterialHistory {
         this.changed.send();
     }
 
-    private step(from: Step[], to: Step[]): void {
+    private step(from: Step<Entry>[], to: Step<Entry>[]): void {
         this.end();
         const step = from.pop();
         if (step === undefined) return;
