@@ -37,7 +37,13 @@ json json_from(const SeenSurface& surface) {
     const auto texels =
         static_cast<double>(6 * surface.face_resolution() * surface.face_resolution());
     const json report = bake_report(surface);
-    const double seconds = report.at("seconds").at("visibility_of_points").get<double>();
+    // An interrupted bake reports the points that it made since it went on.
+    const double points = report.at("points").at("count").get<double>();
+    const double made = points - report.at("points").at("resumed").get<double>();
+    const double seconds =
+        report.at("seconds").at("visibility_of_points").get<double>() * points / made;
+    const double rays =
+        report.at("rays").at("visibility_of_points").get<double>() * points / made;
     return {
         {"vertices", surface.vertex_count()},
         {"triangles", surface.triangle_count()},
@@ -52,7 +58,7 @@ json json_from(const SeenSurface& surface) {
         {"bake_threads", report.at("threads")},
         {"bake_peak_memory_bytes", report.at("peak_memory_bytes")},
         {"wavelet_seconds", surface.wavelet_seconds()},
-        {"rays_per_s", report.at("rays").at("visibility_of_points").get<double>() / seconds}};
+        {"rays_per_s", rays / seconds}};
 }
 
 json json_from(const MovingFigures& f) {
