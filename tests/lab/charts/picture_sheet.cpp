@@ -92,7 +92,7 @@ void draw_picture_grid(const std::filesystem::path& stem,
                        const std::vector<Picture>& pictures,
                        std::size_t columns,
                        std::uint32_t width) {
-    constexpr std::uint32_t kColumn = 180;
+    constexpr std::uint32_t kColumn = 150;
     constexpr std::uint32_t kCaption = 22;
     const wire::Display display = display_for(reference);
     const std::size_t height = reference.size() / 3 / width;

@@ -9,7 +9,7 @@ namespace relume::lab {
 void draw_triple_chart(const std::filesystem::path& stem,
                        const std::vector<std::string>& names,
                        const std::vector<TermCurve>& curves) {
-    Chart chart{.width = 1000, .height = 420};
+    Chart chart{.width = 1000, .height = 520};
     std::string plots[2] = {"plot ", "plot "};
     for (std::size_t i = 0; i < curves.size(); ++i) {
         chart.data += fmt::format("$curve{} << EOD\n", i);
@@ -40,8 +40,9 @@ void draw_triple_chart(const std::filesystem::path& stem,
         chart_style() + fmt::format(
                             "set multiplot layout 1,2\nset logscale xy\nset format y '%g'\nset "
                             "xlabel 'terms of light "
-                            "and of material'\nset key top left\nset ylabel 'µs a vertex'\n{}\n"
-                            "set key bottom left\nset ylabel 'relative L2 error, %'\n{}\n"
+                            "and of material'\nset key below maxcols 2 samplen 2\nset ylabel "
+                            "'µs a vertex'\n{}\n"
+                            "set ylabel 'relative L2 error, %'\n{}\n"
                             "unset multiplot\n",
                             plots[0], plots[1]);
     draw_chart(stem, chart);

@@ -86,11 +86,11 @@ void draw_pictures(const std::filesystem::path& folder,
             const tripling::SquareSet terms = light.largest(of_light);
             const auto radiance =
                 integrate_all(surface, sublinear_way(surface, material, f, light, terms));
-            pictures.push_back({.method = fmt::format(
-                                    "ρ {:g} %, L {:g} %: {:.1f} %", 100 * kMaterialFractions[f],
-                                    100 * of_light, 100 * relative_l2(radiance, exact)),
-                                .image = 0,
-                                .rgb = surface.image(radiance)});
+            pictures.push_back(
+                {.method = fmt::format("{:g} %, {:g} %: {:.1f} %", 100 * kMaterialFractions[f],
+                                       100 * of_light, 100 * relative_l2(radiance, exact)),
+                 .image = 0,
+                 .rgb = surface.image(radiance)});
         }
     }
     std::filesystem::create_directories(folder);
