@@ -50,6 +50,7 @@ struct Subject {
 std::vector<Subject> subjects_of(const Options& options) {
     constexpr std::uint32_t kTableOfPaper = 300'000;
     constexpr std::uint32_t kBuddhaOfPaper = 93'000;
+    constexpr const char* kPhong = "phong:exponent=64";
     std::vector<Subject> subjects;
     const auto add = [&](const std::string& scene, std::uint32_t vertices) -> Subject& {
         Subject& subject = subjects.emplace_back();
@@ -63,10 +64,9 @@ std::vector<Subject> subjects_of(const Options& options) {
         return subjects;
     }
     add("table", kTableOfPaper).materials = options.materials;
-    std::vector<std::string> models{"mesh100k"};
-    models.insert(models.end(), options.models.begin(), options.models.end());
-    for (const std::string& model : models) {
-        add(model, kBuddhaOfPaper).materials.emplace_back("phong:exponent=64");
+    add("mesh100k", kBuddhaOfPaper).materials.emplace_back(kPhong);
+    for (const std::string& model : options.models) {
+        add(model, options.surface.vertices).materials.emplace_back(kPhong);
     }
     return subjects;
 }
@@ -191,7 +191,7 @@ Command add_triple_command(CLI::App& program) {
         ->capture_default_str();
     app->add_flag("--full", options->is_full,
                   "table by 300,000 vertices and mesh100k by 93,000, as [Ng04]'s table");
-    app->add_option("--model", options->models, "files beside them, by 93,000 vertices too")
+    app->add_option("--model", options->models, "files beside them, by --vertices")
         ->check(CLI::ExistingFile);
     app->add_flag("--keep", options->keeps,
                   "what keeping products of two factors would take and save");
