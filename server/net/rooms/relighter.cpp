@@ -154,7 +154,8 @@ void Relighter::advance_together(std::span<Relighter* const> relighters) {
     }
     for (Relighter* relighter : relighters) {
         if (relighter->layer_) {
-            relighter->advance_layer(relighter->budget_.ceiling_ms() / 2);
+            const bool shares = std::find(relit.begin(), relit.end(), relighter) != relit.end();
+            relighter->advance_layer(relighter->budget_.ceiling_ms() / (shares ? 2 : 1));
         }
     }
 }

@@ -5,12 +5,14 @@
 #include "server/view/mesh/visible_surface.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace relume::view {
@@ -26,8 +28,11 @@ template <typename SlotOf>
                                          std::size_t slots,
                                          const SlotOf& slot_of) {
     using Rows = tbb::blocked_range<std::uint32_t>;
+    // Every thread has counts of its own: vertices may be many.
+    tbb::combinable<CornerCounts> of_threads([slots] { return CornerCounts(slots, 0); });
     // Neighbouring places mostly show the same triangle, and are added together.
-    const auto add_rows = [&](const Rows& rows, CornerCounts counts) {
+    const auto add_rows = [&](const Rows& rows) {
+        CornerCounts& counts = of_threads.local();
         std::uint32_t triangle = kNoTriangle;
         std::uint64_t places = 0;
         const auto add = [&] {
@@ -52,15 +57,14 @@ template <typename SlotOf>
             }
         }
         add();
-        return counts;
     };
     constexpr std::uint32_t kRowsAtOnce = 16;
-    return tbb::parallel_reduce(Rows(0, visible.height(), kRowsAtOnce), CornerCounts(slots, 0),
-                                add_rows, [](CornerCounts a, const CornerCounts& b) {
-                                    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
-                                                   std::plus<>());
-                                    return a;
-                                });
+    tbb::parallel_for(Rows(0, visible.height(), kRowsAtOnce), add_rows);
+    CornerCounts all(slots, 0);
+    of_threads.combine_each([&](const CornerCounts& counts) {
+        std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
+    });
+    return all;
 }
 
 [[nodiscard]] inline float pixels_from_places(std::uint64_t places) {
