@@ -147,7 +147,7 @@ InterpolationError interpolation_error(const scene::Scene& scene,
         total.norm += one.norm;
         total.count += one.count;
     }
-    return {.relative_l2 = std::sqrt(total.difference / total.norm),
+    return {.relative_l2 = std::sqrt(std::max(0.0, total.difference / total.norm)),
             .of_exact_corners = std::sqrt(std::max(0.0, total.of_exact_corners / total.norm)),
             .points = total.count};
 }
