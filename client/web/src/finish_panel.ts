@@ -1,9 +1,11 @@
 /** Parts of the scene and the materials that they are given. */
 import { make, setText } from "./dom";
+import { EditActions } from "./edit_actions";
 import { FinishControls } from "./finish_controls";
 import type { Finishes } from "./finishes";
 import { onceAFrame } from "./once_a_frame";
 import type { RoomConnection } from "./room_connection";
+import type { Finish } from "./wire/state";
 
 const kRemark =
     "A part that is given a material shows the light that reaches it straight, without textures " +
@@ -14,7 +16,7 @@ const kNothingOffered =
 
 export class FinishPanel {
     private readonly list = make("ul", "material-list", { "aria-label": "Parts" });
-    private readonly buttons: { [name in "undo" | "redo" | "reset"]: HTMLButtonElement };
+    private readonly actions: EditActions<Finish>;
     private readonly controls = make("div", "material-controls");
     private readonly remark = make("p", "material-remark", {}, kRemark);
     private readonly howTo = make("code", "");
@@ -28,24 +30,16 @@ export class FinishPanel {
         private readonly finishes: Finishes,
     ) {
         const { history } = finishes;
-        const action = (title: string, words: string, act: () => void): HTMLButtonElement => {
-            const button = make("button", "small-button", { type: "button", title: words }, title);
-            button.addEventListener("click", act);
-            return button;
-        };
-        const undo = action("Undo", "Undo the last edit (Ctrl Z)", () => history.undo());
-        const redo = action("Redo", "Redo (Ctrl Shift Z)", () => history.redo());
-        const reset = action("As baked", "Take the finish of this part away", () =>
+        this.actions = new EditActions(history, "Take the finish of this part away", () =>
             finishes.give(null),
         );
-        this.buttons = { undo, redo, reset };
         root.append(
             make(
                 "div",
                 "card-head",
                 {},
                 make("h2", "", {}, "Finishes"),
-                make("div", "material-actions", {}, undo, redo, reset),
+                this.actions.element,
             ),
             this.list,
             this.controls,
@@ -61,12 +55,9 @@ export class FinishPanel {
     }
 
     private show(): void {
-        const { selected, history, finish, offered } = this.finishes;
+        const { selected, finish, offered } = this.finishes;
         if (selected === null) return;
-        const isOpen = this.connection.status.kind === "open";
-        this.buttons.undo.disabled = !isOpen || !history.canUndo;
-        this.buttons.redo.disabled = !isOpen || !history.canRedo;
-        this.buttons.reset.disabled = !isOpen || finish === null;
+        this.actions.show(this.connection.status.kind === "open", finish !== null);
         const offersSome = offered.length > 0 || finish !== null;
         this.controls.hidden = !offersSome;
         this.remark.hidden = !offersSome;

@@ -1,12 +1,14 @@
 /** The scene's materials: which one is edited, its curve, and all that moves it. */
 import { CurveEditor } from "./curve_editor";
 import { make, setText } from "./dom";
+import { EditActions } from "./edit_actions";
 import { MaterialControls } from "./material_controls";
 import { MaterialSphere } from "./material_sphere";
 import type { Materials } from "./materials";
 import { onceAFrame } from "./once_a_frame";
 import type { RoomConnection } from "./room_connection";
 import type { EditableMaterial } from "./wire/message";
+import type { MaterialEdit } from "./wire/state";
 
 /** Whether people edit materials in the connection's scene. */
 export function editsMaterials(connection: RoomConnection): boolean {
@@ -45,8 +47,7 @@ export class MaterialPanel {
     private readonly title = make("h3", "curve-title");
     private readonly remark = make("p", "material-remark");
     private readonly sphere = new MaterialSphere();
-    private readonly buttons: { undo: HTMLButtonElement; redo: HTMLButtonElement };
-    private readonly reset: HTMLButtonElement;
+    private readonly actions: EditActions<MaterialEdit>;
     private readonly showSoon = onceAFrame(() => this.show());
     private drawn = "";
 
@@ -56,16 +57,7 @@ export class MaterialPanel {
         private readonly materials: Materials,
     ) {
         const { history } = materials;
-        const action = (title: string, words: string, act: () => void): HTMLButtonElement => {
-            const button = make("button", "small-button", { type: "button", title: words }, title);
-            button.addEventListener("click", act);
-            return button;
-        };
-        this.buttons = {
-            undo: action("Undo", "Undo the last edit (Ctrl Z)", () => history.undo()),
-            redo: action("Redo", "Redo (Ctrl Shift Z)", () => history.redo()),
-        };
-        this.reset = action("As baked", "Take the edits of this material back", () =>
+        this.actions = new EditActions(history, "Take the edits of this material back", () =>
             materials.reset(),
         );
         const curve = make("div", "curve-editor");
@@ -76,14 +68,7 @@ export class MaterialPanel {
                 "card-head",
                 {},
                 make("h2", "", {}, "Materials"),
-                make(
-                    "div",
-                    "material-actions",
-                    {},
-                    this.buttons.undo,
-                    this.buttons.redo,
-                    this.reset,
-                ),
+                this.actions.element,
             ),
             make("div", "material-choice", {}, this.list, this.sphere.element),
             this.title,
@@ -109,12 +94,10 @@ export class MaterialPanel {
     }
 
     private show(): void {
-        const { selected, edit, history } = this.materials;
+        const { selected, edit } = this.materials;
         if (selected === null || edit === null) return;
         const isOpen = this.connection.status.kind === "open";
-        this.buttons.undo.disabled = !isOpen || !history.canUndo;
-        this.buttons.redo.disabled = !isOpen || !history.canRedo;
-        this.reset.disabled = !isOpen || !this.materials.isEdited(selected.id);
+        this.actions.show(isOpen, this.materials.isEdited(selected.id));
         setText(this.title, `${selected.name}: ${selected.curve.replace("_", " ")}`);
         setText(
             this.remark,
