@@ -111,7 +111,7 @@ void draw_picture_grid(const std::filesystem::path& stem,
         chart.data += pixel_block(fmt::format("image{}", i),
                                   display_values(pictures[i].rgb, display), width);
         chart.commands += fmt::format(
-            "set title '{}' offset 0,-0.7\nplot $image{} using 1:2:3:4:5 with rgbimage\n",
+            "set title '{}' font ',8' offset 0,-0.7\nplot $image{} using 1:2:3:4:5 with rgbimage\n",
             chart_text(pictures[i].method), i);
     }
     chart.commands += "unset multiplot\n";
