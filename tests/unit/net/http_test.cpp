@@ -1,6 +1,8 @@
 // What each path answers.
+#include "protocol/wire/offered_material.h"
 #include "tests/unit/net/raw_socket.h"
 #include "tests/unit/net/running_server.h"
+#include "tests/unit/net/small_materials.h"
 #include "tests/unit/net/websocket_client.h"
 
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace relume::net {
 namespace {
@@ -38,6 +41,33 @@ TEST_F(HttpTest, PreviewsOfEnvironments) {
     EXPECT_EQ(json::parse(missing.body)["error"]["code"], "not_found");
 }
 
+// What is offered follows the folder, without a restart.
+TEST_F(HttpTest, MaterialsOfTheFolder) {
+    const test::ScratchDirectory materials;
+    write_small_material(materials.path(), "white", materials::lambert_model());
+    configuration_.materials = materials.path();
+    configuration_.scenes_interval = std::chrono::milliseconds(5);
+    start();
+    const auto names = [&] {
+        std::vector<std::string> found;
+        const json offer = json::parse(http(port(), "GET", "/api/materials").body);
+        for (const json& material : offer.at("materials")) {
+            found.push_back(wire::offered_material_from_json(material, "").name);
+        }
+        return found;
+    };
+    EXPECT_EQ(names(), std::vector<std::string>{"white"});
+    write_small_material(materials.path(), "phong-exponent-4", materials::phong_model(4));
+    EXPECT_TRUE(eventually([&] {
+        return names() == std::vector<std::string>{"phong", "white"};
+    }));
+}
+
+TEST_F(HttpTest, NoFolderOfMaterialsIsNoMaterial) {
+    start();
+    EXPECT_EQ(http(port(), "GET", "/api/materials").body, R"({"materials":[]})");
+}
+
 TEST_F(HttpTest, ParametersThatAreUnknownOrWrongAreRefusedByName) {
     start();
     const auto fault = [](const HttpAnswer& answer) {
@@ -47,7 +77,8 @@ TEST_F(HttpTest, ParametersThatAreUnknownOrWrongAreRefusedByName) {
     };
     for (const char* path :
          {"/healthz", "/readyz", "/metrics", "/api/scenes", "/api/environments",
-          "/api/scenes/tiny/thumbnail.png", "/api/environments/small/preview.jpg"}) {
+          "/api/materials", "/api/scenes/tiny/thumbnail.png",
+          "/api/environments/small/preview.jpg"}) {
         EXPECT_EQ(fault(http(port(), "GET", std::string(path) + "?size=2")),
                   "400 unknown_field the parameter \"size\"")
             << path;
