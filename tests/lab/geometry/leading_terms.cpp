@@ -105,6 +105,7 @@ std::shared_ptr<const transport::Transport> leading_terms(const transport::Trans
     }
     const transport::VertexClusters& clusters = of.manifest().layout.clusters();
     transport::Manifest manifest = of.manifest();
+    manifest.visibility.reset();
     std::vector<transport::Cluster> fewer(clusters.clusters().begin(),
                                           clusters.clusters().end());
     for (transport::Cluster& cluster : fewer) {

@@ -62,14 +62,12 @@ scene::Scene scene_of_one_material(const TripleParetoOptions& options) {
     return scene;
 }
 
-// With what its vertices see, or without: the vertices and their rows are the same.
-std::shared_ptr<const served::Scene> baked(const TripleParetoOptions& options,
-                                           bool with_visibility) {
+// With what its vertices see.
+std::shared_ptr<const served::Scene> baked(const TripleParetoOptions& options) {
     const std::filesystem::path directory =
-        options.cache / fmt::format("triple-pareto-{}-{}-{}-{}-{}-{}{}.relume", options.scene,
+        options.cache / fmt::format("triple-pareto-{}-{}-{}-{}-{}-{}.relume", options.scene,
                                     options.roughness, options.vertices,
-                                    options.face_resolution, options.terms, options.side,
-                                    with_visibility ? "-seen" : "");
+                                    options.face_resolution, options.terms, options.side);
     if (auto scene = test::open_if_whole(directory)) {
         return scene;
     }
@@ -84,7 +82,7 @@ std::shared_ptr<const served::Scene> baked(const TripleParetoOptions& options,
                                           .terms = options.terms};
     std::filesystem::create_directories(directory);
     bake::bake(scene_of_one_material(options), parameters, directory, {}, {},
-               {.of_vertices = with_visibility});
+               {.of_vertices = true});
     return std::make_shared<const served::Scene>(transport::Transport::open(directory));
 }
 
@@ -201,8 +199,8 @@ class Comparison {
   public:
     explicit Comparison(const TripleParetoOptions& options)
         : options_(options),
-          scene_(baked(options, false)),
-          surface_(baked(options, true), options.side),
+          scene_(baked(options)),
+          surface_(scene_, options.side),
           words_(fmt::format(
               "ggx:roughness={},base={},metallic={}", options.roughness, kBase, kMetallic)),
           tabulated_(words_, options.face_resolution, kMaterialFractions),

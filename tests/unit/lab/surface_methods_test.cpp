@@ -1,5 +1,6 @@
 // Methods over a surface: its first terms, and clustered PCA.
 #include "tests/lab/cpca/transport_rows.h"
+#include "tests/lab/geometry/leading_terms.h"
 #include "tests/lab/measures/experiment.h"
 #include "tests/lab/sequences/environment_source.h"
 #include "tests/support/scratch_directory.h"
@@ -99,6 +100,16 @@ TEST_F(SurfaceMethods, LeadingTermsHaveTheBlocksOfTheWhole) {
                       whole[of_whole.first_block(c) * kBlock + i]);
         }
     }
+}
+
+// What vertices see is of no term.
+TEST_F(SurfaceMethods, LeadingTermsOfASurfaceThatSeesLightHaveNoVisibility) {
+    test::write_tiny_mesh_transport(scratch_.path() / "seeing.relume", 1, 4);
+    const auto seeing = transport::Transport::open(scratch_.path() / "seeing.relume");
+    ASSERT_TRUE(seeing->visibility());
+    const auto fewer = leading_terms(*seeing, 2);
+    EXPECT_FALSE(fewer->visibility());
+    EXPECT_LT(fewer->manifest().block_count(), seeing->manifest().block_count());
 }
 
 TEST_F(SurfaceMethods, RowsOfATransportAreItsProductOfEveryLight) {
