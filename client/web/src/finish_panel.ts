@@ -5,6 +5,7 @@ import { FinishControls } from "./finish_controls";
 import type { Finishes } from "./finishes";
 import { onceAFrame } from "./once_a_frame";
 import type { RoomConnection } from "./room_connection";
+import type { ScenePart } from "./wire/message";
 import type { Finish } from "./wire/state";
 
 const kRemark =
@@ -13,6 +14,11 @@ const kRemark =
 const kNothingOffered =
     "The server offers no materials for this scene. They are made for its resolution and put " +
     "into the folder that it was started with: ";
+
+/** The ID, where the file has no name for the material or one name for several. */
+export function titleOf({ id, name }: ScenePart, all: readonly ScenePart[]): string {
+    return name === "" || all.filter((other) => other.name === name).length > 1 ? id : name;
+}
 
 export class FinishPanel {
     private readonly list = make("ul", "material-list", { "aria-label": "Parts" });
@@ -76,7 +82,8 @@ export class FinishPanel {
         this.drawn = key;
         const hadFocus = this.list.contains(document.activeElement);
         this.list.replaceChildren(
-            ...parts.map(({ id, name }) => {
+            ...parts.map((part) => {
+                const { id } = part;
                 const row = make(
                     "button",
                     "material-row",
@@ -85,7 +92,7 @@ export class FinishPanel {
                         "data-part": id,
                         "aria-pressed": String(id === selected?.id),
                     },
-                    make("span", "material-name", {}, name === "" ? id : name),
+                    make("span", "material-name", {}, titleOf(part, parts)),
                     make("span", "material-state", {}, materialOf(id)),
                 );
                 row.addEventListener("click", () => this.finishes.select(id));

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { OfferedMaterial } from "../src/api";
 import { lobeTitles } from "../src/finish_controls";
+import { titleOf } from "../src/finish_panel";
 import { coloursOf, entryOf, parameterOf } from "../src/finishes";
 import { lightingOf, patchToLighting } from "../src/lighting";
 import { messageFromText, WireError } from "../src/wire/message";
@@ -50,6 +51,23 @@ describe("a finish", () => {
             wall: null,
             floor: { material: "gold", parameter: null, colours: null },
         });
+    });
+});
+
+describe("a part", () => {
+    it("is called by its ID where its name says too little", () => {
+        const parts = [
+            { id: "floor", name: "Floor" },
+            { id: "Material_20", name: "Material_20" },
+            { id: "Material_20-2", name: "Material_20" },
+            { id: "material", name: "" },
+        ];
+        expect(parts.map((part) => titleOf(part, parts))).toEqual([
+            "Floor",
+            "Material_20",
+            "Material_20-2",
+            "material",
+        ]);
     });
 });
 
